@@ -77,7 +77,7 @@ def main():
     alone = options.jerk is not None  # LinuxCNC 2.9 has no jerk limit
     print("| program | " + " | ".join(name if alone else f"{name} | LinuxCNC | less" for name, _ in MODES) + " |")
     print("|---|" + ("---:|" if alone else "---:|---:|---:|") * len(MODES))
-    sums = [[0.0, 0] for _ in MODES]
+    sums = [[0.0, 0.0, 0.0, 0] for _ in MODES]  # what is less, ours, theirs, how many
     bad = []
     with tempfile.TemporaryDirectory() as folder:
         at = pathlib.Path(folder)
@@ -100,16 +100,15 @@ def main():
                     continue
                 took = json.loads(run.stdout)["cycle_time_s"]
                 less = 1.0 - took / theirs[k]
-                sums[k][0] += less
-                sums[k][1] += 1
+                sums[k] = [x + y for x, y in zip(sums[k], (less, took, theirs[k], 1))]
                 cells.append(f"{took:.2f}" if alone else f"{took:.2f} | {theirs[k]:.2f} | {100 * less:.1f} %")
                 if options.judge:
                     bad += judge(options, at, f"{name} {MODES[k][0]}", tolerance)
             print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
     if alone:
         return report(bad)
-    means = [f"| | {100 * s / max(n, 1):.1f} %" for s, n in sums]
-    print("| mean | " + " | ".join(means) + " |")
+    print("| sum | " + " | ".join(f"{ours:.2f} | {other:.2f} | {100 - 100 * ours / max(other, 1.0):.1f} %" for _, ours, other, _ in sums) + " |")
+    print("| mean | " + " | ".join(f"| | {100 * less / max(n, 1):.1f} %" for less, _, _, n in sums) + " |")
     return report(bad)
 
 

@@ -11,13 +11,17 @@ constexpr std::int64_t farthest_raw = std::int64_t{1} << (Position::fraction_bit
 constexpr double most_tolerance_mm = 100.0;
 constexpr double least_corner = 1e-4; // sin(phi/2): a smaller change of direction is none
 constexpr double sliver = 0.25;       // 6e-5 mm: what is left of a move between two blends is more, or nothing
-// What a blend leaves of the last move before a stop, as a part of it: its end is off by 2^-32 of the length.
-constexpr int least_rest_log2 = -7;
 
 // What one end of a move gets of its length, where it and the other end wish so much.
 template <Scalar S>
 S share(S own, S other, S length) noexcept {
     return own + other <= length ? own : smaller(own, larger(scale2(length, -1), length - other));
+}
+
+// What a blend leaves of a move whose other end has none: where it meets the move it is off by 2^-32 of the length.
+template <Scalar S>
+S rest_of(const PathMove<S>& move) noexcept {
+    return larger(literal<S>(sliver), scale2(move.length(), -7));
 }
 
 // How much longer a blend may be on a move than its way. On a line that changes neither direction nor curvature, and
@@ -176,12 +180,12 @@ void BlendedPath<S>::fit_joint() noexcept {
     const S wished = wish(next_);
     if (wished > S{}) {
         const PathMove<S>& behind = entry(next_ + 1).move;
-        const S here = smaller(share(wished, before_wish_, move.length()), move.length() - before_);
+        const S before = before_ > S{} ? before_ : rest_of(move);
+        const S here = smaller(share(wished, before_wish_, move.length()), move.length() - before);
         const S wished_behind = wish(next_ + 1);
         S there = share(wished, wished_behind, behind.length());
-        if (!(wished_behind > literal<S>(sliver))) { // its end stays, and the rest has digits for its direction
-            const S rest = larger(literal<S>(sliver), scale2(behind.length(), least_rest_log2));
-            there = smaller(there, behind.length() - rest);
+        if (!(wished_behind > literal<S>(sliver))) { // its end stays
+            there = smaller(there, behind.length() - rest_of(behind));
         }
         S room = smaller(here, there);
         // Between two blends there is something like a move, or nothing: what rounding leaves goes to the blend behind.
