@@ -3,21 +3,14 @@
 // Pages of reports in a browser, without a network: pages.mjs TOOL PAGE_DIRECTORY (which bundle.sh has filled) [SCREENSHOTS [TEST]]
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { launched, offline } from "./browser.mjs";
 
 const [tool, packages, shots, only = ""] = process.argv.slice(2);
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const driver = join(packages, "node_modules/playwright-core/index.mjs");
-for (const [there, what] of [[browserPath, "chromium is not installed"], [existsSync(driver), "there is no playwright-core (report_bundle)"]]) {
-    if (!there) {
-        console.log(`SKIPPED: ${what}`);
-        process.exit(77);
-    }
-}
-const { chromium } = await import(pathToFileURL(resolve(driver)));
+const browser = await launched(packages);
 const folder = mkdtempSync(join(tmpdir(), "report-"));
 const examples = resolve("examples");
 if (shots) mkdirSync(shots, { recursive: true });
@@ -30,25 +23,18 @@ function made(name, args, { input, status = 0, command = "run" } = {}) {
     return { html, summary: JSON.parse(run.stdout) };
 }
 
-const browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-
 /** Opens a page offline; what is wrong on it, or asked for from elsewhere, fails. */
 async function open(html, theme = "light") {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: theme, offline: true });
-    const page = await context.newPage();
+    const page = await offline(browser, { colorScheme: theme });
     const wrong = [];
     page.on("pageerror", (error) => wrong.push(error.message));
     page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
     page.on("dialog", (dialog) => (wrong.push(`dialog: ${dialog.message()}`), dialog.dismiss()));
     page.on("request", (request) => request.url().startsWith("file:") || request.url().startsWith("blob:") || wrong.push(request.url()));
-    page.setDefaultTimeout(120000);
     await page.goto(pathToFileURL(html).href);
     await page.waitForSelector(".space[data-tool]");
     assert.deepEqual(wrong, []);
-    return { page, wrong, close: () => context.close() };
+    return { page, wrong, close: () => page.context().close() };
 }
 
 const fact = (page, name) => page.locator(".fact", { has: page.locator(`small:text-is("${name}")`) }).locator("b").innerText();

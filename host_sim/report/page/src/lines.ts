@@ -37,7 +37,9 @@ export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[],
     for (let n = 0; n < chosen.length; ++n) if (Math.floor(n / block) % every === 0) some.push(2 * n, 2 * n + 1);
     const part = new BufferGeometry().setIndex(some);
     for (const name of ["position", "color"]) part.setAttribute(name, geometry.getAttribute(name));
-    return [new LineSegments(geometry, material), new LineSegments(part, material)];
+    const drawn = [geometry, part].map((of) => new LineSegments(of, material));
+    for (const lines of drawn) lines.frustumCulled = false; // its sphere takes long to find
+    return [drawn[0], drawn[1]];
 }
 
 /** Dashes that run on from piece to piece. @param ends x, y, z of the begin and of the end of each piece */

@@ -9,12 +9,13 @@ import * as panels from "./panels";
 import type { Quantity } from "./pieces";
 import { units } from "./pieces";
 import { Player } from "./player";
-import { Space, type View } from "./scene";
+import { preparedRenderer, Space, type View } from "./scene";
 import { Strips, type Over } from "./strips";
 
+const renderer = preparedRenderer();
 const report = read(document.getElementById("data")!.textContent!);
 const motion = new Motion(report);
-const space = new Space(motion);
+const space = new Space(motion, renderer);
 const strips = new Strips(motion);
 const player = new Player(motion);
 const listing = new Listing(motion);
