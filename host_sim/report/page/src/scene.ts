@@ -6,7 +6,6 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { Kind, type Motion } from "./motion";
 import { colouring, divide, type Colouring, type Pieces, type Quantity } from "./pieces";
@@ -23,22 +22,6 @@ const directions: Record<View, [number, number, number]> = {
     side: [1, 0, 0],
 };
 const pause_ms = 250; // without a move: all are drawn
-
-/** Its programs are compiled while the page goes on. */
-export function preparedRenderer(): WebGLRenderer {
-    const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    renderer.localClippingEnabled = true;
-    renderer.debug.checkShaderErrors = false; // the page would wait
-    const scene = new Scene();
-    for (const options of [{ vertexColors: true }, { dashed: true }, {}]) {
-        scene.add(new LineSegments2(new LineSegmentsGeometry(), new LineMaterial(options)));
-    }
-    for (const vertexColors of [true, false]) scene.add(new Line(new BufferGeometry(), new LineBasicMaterial({ vertexColors })));
-    scene.add(points([], new CanvasTexture(document.createElement("canvas")), 1));
-    renderer.compile(scene, new OrthographicCamera());
-    return renderer;
-}
 
 export class Space {
     readonly element = el("div", { class: "space" });
@@ -250,17 +233,21 @@ export class Space {
         const stride = 3 * Math.max(1, Math.floor(xyz.length / 3 / 20000));
         const at = new Vector3();
         let [x, y] = [0, 0];
-        for (let i = 0; i < xyz.length; i += stride) {
-            at.fromArray(xyz, i).applyMatrix4(inverse);
+        const cover = () => {
+            at.applyMatrix4(inverse);
             x = Math.max(x, Math.abs(at.x - centre.x));
             y = Math.max(y, Math.abs(at.y - centre.y));
+        };
+        for (let i = 0; i < xyz.length; i += stride) {
+            at.fromArray(xyz, i);
+            cover();
         }
-        for (let corner = 0; corner < 4; ++corner) { // the ground's
-            at.set(corner & 1 ? this.high.x : this.low.x, corner & 2 ? this.high.y : this.low.y, this.low.z).applyMatrix4(inverse);
-            y = Math.max(y, 0.88 * Math.abs(at.y - centre.y));
-            x = Math.max(x, 0.88 * Math.abs(at.x - centre.x));
+        for (const tick of this.ticks) {
+            at.copy(tick.at);
+            cover();
         }
-        const half = Math.max(y * 1.32, (x * 1.22 * h) / w, 1e-6);
+        const room = (pixels: number, of: number) => Math.max(1 - pixels / of, 0.3); // of labels and, above, of what lies there
+        const half = Math.max(y / room(76, h), (x / room(60, w)) * (h / w), 1e-6);
         this.camera.top = half;
         this.camera.bottom = -half;
         this.camera.right = (half * w) / h;
@@ -273,12 +260,21 @@ export class Space {
     draw(): void {
         if (this.asked) return;
         this.asked = true;
-        requestAnimationFrame(() => {
-            this.asked = false;
-            this.renderer.render(this.scene, this.camera);
-            this.drawLabels();
-            this.drawCursors();
-        });
+        requestAnimationFrame(() => this.render());
+    }
+
+    private render(): void {
+        this.asked = false;
+        this.renderer.render(this.scene, this.camera);
+        this.drawLabels();
+        this.drawCursors();
+    }
+
+    /** At once, all of it, in the size that its element has now. */
+    snap(): void {
+        this.resize();
+        this.thin(false);
+        this.render();
     }
 
     private drawCursors(): void {
