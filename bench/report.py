@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a report costs: bench/report.py TOOL [BLOCKS]: for some programs the time of planning, the time that the report adds, and the size of its page."""
+"""What a report costs: bench/report.py BUILD_DIRECTORY [BLOCKS]: for some programs the time of planning, the time that the report adds, and the size of its
+page; with chromium and the packages of the test report_bundle also the time until the page's first picture and until all of it, and of a frame while it turns."""
 import json
 import pathlib
 import subprocess
@@ -23,14 +24,24 @@ def measured(tool, arguments, page):
     return *took, json.loads(out.stdout)
 
 
+def opened(packages, page):
+    """Its times in a browser, as columns."""
+    out = subprocess.run([ROOT / "bench" / "open_page.mjs", packages, page], capture_output=True, check=False, text=True)
+    if out.returncode == 77:
+        return "  " + out.stdout.strip()
+    first, whole, frame = map(float, out.stdout.split())
+    return f"{first:>9.2f} s{whole:>7.2f} s{frame:>7.0f} ms"
+
+
 def main():
-    tool, blocks = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "1000000"
+    build = pathlib.Path(sys.argv[1]).resolve()
+    tool, blocks = build / "bin" / "splinefeed", sys.argv[2] if len(sys.argv) > 2 else "1000000"
     with tempfile.TemporaryDirectory() as folder:
         rings = pathlib.Path(folder, "rings.gcode")
         with open(rings, "w", encoding="ascii") as file:
             subprocess.run([ROOT / "bench" / "slicer.py", blocks], stdout=file, check=True)
         page = pathlib.Path(folder, "page.html")
-        print(f"{'program':<16}{'motion':>12}{'planning':>12}{'run':>12}{'report adds':>13}{'page':>12}{'memory':>12}")
+        print(f"{'program':<16}{'motion':>12}{'planning':>12}{'run':>12}{'report adds':>13}{'page':>12}{'memory':>12}{'picture':>11}{'all':>9}{'turns':>10}")
         for program, machine, *more in (
             (EXAMPLES / "path61.csv", THREE),
             (EXAMPLES / "bracket.ngc", THREE),
@@ -40,7 +51,7 @@ def main():
         ):
             without, with_report, summary = measured(tool, [program, "-m", machine, *more], page)
             print(f"{program.name:<16}{summary['cycle_time_s']:>10.1f} s{summary['planning_time_s']:>10.2f} s{without:>10.2f} s"
-                  f"{with_report - without:>11.2f} s{page.stat().st_size / 1e6:>9.2f} MB{summary['peak_rss_bytes'] / 1e6:>9.0f} MB")
+                  f"{with_report - without:>11.2f} s{page.stat().st_size / 1e6:>9.2f} MB{summary['peak_rss_bytes'] / 1e6:>9.0f} MB{opened(build / 'report_page', page)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Makes every picture of the docs from data: make.py BUILD_DIRECTORY, or compares them with what is there: make.py --check BUILD_DIRECTORY.
 
-What late.svg shows was measured on a clock: late.json has the measurement. Numbers may differ by a tenth of a unit of the drawing."""
+What late.svg shows was measured on a clock: late.json has the measurement. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
+chromium, whose fonts differ from machine to machine: it is made, and not compared."""
 import pathlib
 import re
 import subprocess
@@ -45,6 +46,8 @@ def main():
             file.write_text(made)
         elif not file.exists() or not same(made, file.read_text()):
             stale.append(f"docs/pictures/{name} is not what is drawn today; docs/pictures/make.py {sys.argv[-1]} makes it anew")
+    if not check:
+        subprocess.run([HERE / "report.mjs", build], check=False)
     stale += [f"docs/pictures/{file.name}: nothing makes it" for file in HERE.glob("*.svg") if file.name not in names]
     print("\n".join(stale) or f"{len(names)} pictures: {'as drawn today' if check else 'made'}")
     return 1 if stale else 0

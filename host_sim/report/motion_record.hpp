@@ -7,6 +7,7 @@
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/report/layer_times.hpp"
 #include "host_sim/report/line_times.hpp"
+#include "host_sim/report/target_record.hpp"
 #include "host_sim/report/thinned_path.hpp"
 #include "host_sim/report/time_strips.hpp"
 
@@ -107,6 +108,8 @@ public:
     /// The first most_events of the program.
     [[nodiscard]] const std::vector<ProgramSummary::Event>& events() const noexcept { return events_; }
     [[nodiscard]] const LayerTimes& layers() const noexcept { return layers_; }
+    /// For the thread of a target, and after the run.
+    [[nodiscard]] TargetRecord& target() noexcept { return target_; }
 
 private:
     struct Row {
@@ -155,6 +158,7 @@ private:
     std::int32_t tool_ = 0;
     std::vector<ProgramSummary::Event> events_;
     LayerTimes layers_;
+    TargetRecord target_;
     PerAxis<Position> here_{}; // where the last move of the program ends
     double programmed_mm_ = 0.0;
     std::deque<Row> rows_; // moves from first_row_ on

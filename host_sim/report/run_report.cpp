@@ -133,6 +133,30 @@ Json deviation_json(const MotionRecord& record) {
             {"mm", column(record.deviations(), finest_mm, [](float mm) { return mm; })}};
 }
 
+/// The lowest value in each bin, and how far the highest one is above it.
+Json channel_json(const TimeStrips& strips, std::size_t channel, double unit) {
+    std::vector<std::int64_t> low;
+    std::vector<std::int64_t> width;
+    for (std::size_t i = 0; i < strips.bins().size(); ++i) {
+        low.push_back(std::llround(static_cast<double>(strips.range(i, channel).low) / unit));
+        width.push_back(std::llround(static_cast<double>(strips.range(i, channel).high) / unit) - low.back());
+    }
+    return {{"unit", unit}, {"low", packed_column(low)}, {"width", packed_column(width)}};
+}
+
+Json target_json(const TargetRecord& record) {
+    const TimeStrips& strips = record.strips();
+    constexpr double finest_buffer_s = 1e-4;
+    Json channels = Json::array();
+    for (std::size_t c = 0; c < strips.channels(); ++c) {
+        channels.push_back(channel_json(strips, c, finest_buffer_s));
+    }
+    return {{"count", strips.bins().size()},
+            {"bin_s", static_cast<double>(strips.bin_ticks()) / per_s},
+            {"least_s", record.least_s()},
+            {"channels", channels}};
+}
+
 Json strips_json(const MotionRecord& record) {
     const TimeStrips& strips = record.strips();
     using Bin = TimeStrips::Bin;
@@ -142,13 +166,7 @@ Json strips_json(const MotionRecord& record) {
         const bool jerk = c > 0 && c % 3 == 0;
         const double limit = jerk ? record.machine().settings.axis[c / 3 - 1].max_jerk_mm_s3 : 0.0;
         const double unit = c == 0 ? finest_speed : jerk && !(limit > 0.0) ? finest_jerk : finest_share;
-        std::vector<std::int64_t> low;
-        std::vector<std::int64_t> width;
-        for (std::size_t i = 0; i < bins.size(); ++i) {
-            low.push_back(std::llround(static_cast<double>(strips.range(i, c).low) / unit));
-            width.push_back(std::llround(static_cast<double>(strips.range(i, c).high) / unit) - low.back());
-        }
-        channels.push_back({{"unit", unit}, {"low", packed_column(low)}, {"width", packed_column(width)}});
+        channels.push_back(channel_json(strips, c, unit));
     }
     return {{"count", bins.size()},
             {"bin_s", static_cast<double>(strips.bin_ticks()) / per_s},
@@ -305,6 +323,7 @@ void RunReport::write(const ReportFacts& facts) {
     data["waypoints"] = waypoints_json(record_);
     data["deviation"] = deviation_json(record_);
     data["strips"] = strips_json(record_);
+    data["target"] = target_json(record_.target());
     for (const std::string_view piece : page_head()) {
         file_.append(piece);
     }

@@ -179,17 +179,18 @@ int run(const RunArguments& arguments) {
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
         motion_arguments.state = &state.emplace(arguments.state, of.axes, motion_arguments.begins);
     }
+    std::optional<RunReport> report;
+    if (!arguments.outputs.report.empty()) {
+        motion_arguments.record = &report.emplace(arguments.outputs.report, machine, figures.segment_ticks).record();
+    }
     if (target != nullptr) {
-        supervision.emplace(*target, *signals, program_outputs.get(), motion_arguments.state);
+        supervision.emplace(*target, *signals, program_outputs.get(), motion_arguments.state,
+                            report ? &report->record().target() : nullptr);
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
     if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
         tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
              printable(machine.file));
-    }
-    std::optional<RunReport> report;
-    if (!arguments.outputs.report.empty()) {
-        motion_arguments.record = &report.emplace(arguments.outputs.report, machine, figures.segment_ticks).record();
     }
     Motion motion(motion_arguments, machine, figures, input, path_limits, outputs,
                   supervision ? &*supervision : nullptr);

@@ -218,6 +218,9 @@ void Supervision::hand_over() {
     while (takes && port.room() > 0 && ring_.pop(segment)) {
         taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
         takes = port.submit(segment);
+        if (record_ != nullptr) {
+            record_->handed(segment.duration_ticks);
+        }
     }
     // In this order: what was pushed before complete_ is seen.
     const bool complete = complete_.load();
@@ -260,6 +263,9 @@ std::string Supervision::supervise() {
         executed_.store(state.executed - before_);
         come_to(state.executed - before_);
         const std::uint64_t now_us = system_clock().now_us();
+        if (record_ != nullptr) {
+            record_->looked(now_us, state.executed - before_);
+        }
         if (phase == hal::PortPhase::fault) {
             end_outputs();
             return or_unsaid(target_->fault());

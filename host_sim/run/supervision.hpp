@@ -5,6 +5,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/ports/program_outputs.hpp"
 #include "host_sim/ports/run_target.hpp"
+#include "host_sim/report/target_record.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/state_keeper.hpp"
 
@@ -38,10 +39,10 @@ public:
     static constexpr int stall_s = 2;
 
     /// No thread runs before the first segment. All arguments must outlive it.
-    /// @param outputs, state  null: there are none
+    /// @param outputs, state, record  null: there are none
     Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr,
-                StateKeeper* state = nullptr)
-        : target_(&target), signals_(&signals), outputs_(outputs), state_(state) {}
+                StateKeeper* state = nullptr, TargetRecord* record = nullptr)
+        : target_(&target), signals_(&signals), outputs_(outputs), state_(state), record_(record) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
     /// If the run is not over: stop(), and waits for the end.
@@ -116,6 +117,7 @@ private:
     SignalWatch* signals_;
     ProgramOutputs* outputs_;
     StateKeeper* state_;
+    TargetRecord* record_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // used by the planner only

@@ -2,22 +2,15 @@
 // SPDX-License-Identifier: MIT
 // Pages of reports in a browser, without a network: pages.mjs TOOL PAGE_DIRECTORY (which bundle.sh has filled) [SCREENSHOTS [TEST]]
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { launched, offline } from "./browser.mjs";
 
 const [tool, packages, shots, only = ""] = process.argv.slice(2);
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const driver = join(packages, "node_modules/playwright-core/index.mjs");
-for (const [there, what] of [[browserPath, "chromium is not installed"], [existsSync(driver), "there is no playwright-core (report_bundle)"]]) {
-    if (!there) {
-        console.log(`SKIPPED: ${what}`);
-        process.exit(77);
-    }
-}
-const { chromium } = await import(pathToFileURL(resolve(driver)));
+const browser = await launched(packages);
 const folder = mkdtempSync(join(tmpdir(), "report-"));
 const examples = resolve("examples");
 if (shots) mkdirSync(shots, { recursive: true });
@@ -30,25 +23,18 @@ function made(name, args, { input, status = 0, command = "run" } = {}) {
     return { html, summary: JSON.parse(run.stdout) };
 }
 
-const browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-
 /** Opens a page offline; what is wrong on it, or asked for from elsewhere, fails. */
-async function open(html, theme = "light") {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: theme, offline: true });
-    const page = await context.newPage();
+async function open(html, theme = "light", options = {}) {
+    const page = await offline(browser, { colorScheme: theme, ...options });
     const wrong = [];
     page.on("pageerror", (error) => wrong.push(error.message));
     page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
     page.on("dialog", (dialog) => (wrong.push(`dialog: ${dialog.message()}`), dialog.dismiss()));
     page.on("request", (request) => request.url().startsWith("file:") || request.url().startsWith("blob:") || wrong.push(request.url()));
-    page.setDefaultTimeout(120000);
     await page.goto(pathToFileURL(html).href);
     await page.waitForSelector(".space[data-tool]");
     assert.deepEqual(wrong, []);
-    return { page, wrong, close: () => context.close() };
+    return { page, wrong, close: () => page.context().close() };
 }
 
 const fact = (page, name) => page.locator(".fact", { has: page.locator(`small:text-is("${name}")`) }).locator("b").innerText();
@@ -133,6 +119,22 @@ const tests = {
         assert.deepEqual(wrong, []);
     },
 
+    async "a tablet: nothing lies outside its place; and two printed sheets, light ones"() {
+        const { html } = made("sizes", [join(examples, "bracket.ngc"), "-m", join(examples, "three_axis.toml")]);
+        const { page, wrong, close: end } = await open(html, "dark", { viewport: { width: 1024, height: 768 }, hasTouch: true });
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.scrollHeight, document.documentElement.scrollWidth]), [768, 1024]);
+        const outside = () => [...document.querySelectorAll("header *, aside *, .tools *, .player *")].filter((e) => e.getBoundingClientRect().right > innerWidth + 1).map((e) => e.outerHTML);
+        assert.deepEqual(await page.evaluate(outside), []);
+        await page.locator(".space").tap({ position: { x: 300, y: 200 } });
+        await page.evaluate(() => addEventListener("beforeprint", () => (document.title = `${document.documentElement.dataset.theme} ${document.querySelectorAll(".page tbody").length}`)));
+        const sheets = (await page.pdf({ preferCSSPageSize: true, printBackground: true })).toString("latin1").match(/\/Type\s*\/Page\b/g);
+        assert.equal(sheets.length, 2);
+        assert.match(await page.title(), /^light [5-9]/);
+        await page.waitForFunction(() => document.documentElement.dataset.theme === "dark" && !document.body.classList.contains("printing"));
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
     async "a jerk limit: four strips"() {
         const { html } = made("butterfly", [join(examples, "butterfly.json"), "-m", join(examples, "jerk_limited.toml")]);
         const { page, wrong, close: end } = await open(html, "dark");
@@ -181,6 +183,31 @@ const tests = {
         assert.match(await page.innerText('.row[data-line="4"]'), /G77/);
         await end();
         assert.deepEqual(wrong, []);
+    },
+
+    async "a run on drives: their links, what they had buffered and how late they were"() {
+        const ports = [0, 1, 2].map((k) => 20000 + (process.pid % 10000) * 3 + k);
+        const machine = join(folder, "drives.toml");
+        writeFileSync(machine, readFileSync(join(examples, "three_drives.toml"), "utf8").replace(/:150([234])/g, (_, n) => `:${ports[n - 2]}`));
+        const drives = ports.map((port) => spawn(tool, ["drive", "--axes", "1", "--listen", `tcp://127.0.0.1:${port}`], { stdio: "ignore" }));
+        try {
+            await new Promise((done) => setTimeout(done, 1000));
+            const { html, summary } = made("drives", [join(examples, "path61.csv"), "-m", machine, "--target", "modbus"]);
+            const { page, wrong, close: end } = await open(html);
+            assert.equal(await page.locator(".strip").count(), 4);
+            await tab(page, "Drives");
+            const rows = await page.locator(".page.open tbody tr").allInnerTexts();
+            const segments = rows.map((row) => row.split("\t")).find(([name]) => name === "segments");
+            assert.deepEqual(segments.slice(1).map(Number), summary.link.drives.map((drive) => drive.segments));
+            const text = await page.innerText(".page.open");
+            assert.ok(parseFloat(text.match(/least buffered\s+([\d.]+) ms/)[1]) > 10, text);
+            assert.match(text, new RegExp(`stopped together\\s+${summary.link.resumes} time`));
+            assert.match(text, /latest\s+[\d.]+ ms/);
+            await end();
+            assert.deepEqual(wrong, []);
+        } finally {
+            for (const drive of drives) drive.kill();
+        }
     },
 
     async "texts are no markup"() {

@@ -112,30 +112,36 @@ function path(json: Json): Path {
 }
 
 /** Of each bin of time the smallest and the largest value of each channel. */
-export interface Strips {
-    count: number;
-    bin: number;
+export interface Strips extends Bins {
     whole: number; // length of all
     length: Float64Array;
     feed: Float64Array;
     limit: Float64Array;
+}
+
+/** What a target had buffered and how late it was, in seconds: the smallest and the largest in each bin. */
+export interface Bins {
+    count: number;
+    bin: number;
     low: Float64Array[];
     high: Float64Array[];
 }
 
-function strips(json: Json): Strips {
+function bins(json: Json): Bins {
     const n = json.count;
     const low = json.channels.map((c: Json) => column(c.low, n, c.unit));
     const high = json.channels.map((c: Json, i: number) => column(c.width, n, c.unit).map((w, j) => w + low[i][j]));
+    return { count: n, bin: json.bin_s, low, high };
+}
+
+function strips(json: Json): Strips {
+    const n = json.count;
     return {
-        count: n,
-        bin: json.bin_s,
+        ...bins(json),
         whole: json.length_mm,
         length: column(json.length, n, json.length_unit),
         feed: column(json.feed, n, json.feed_unit),
         limit: column(json.limit, n, 1),
-        low,
-        high,
     };
 }
 
@@ -188,6 +194,8 @@ export interface Report {
     /** The largest distance from the program, of so many rows together. */
     deviation: { rows: number; mm: Float64Array };
     strips: Strips;
+    /** buffered, late; no bins: the run was simulated. */
+    target: Bins & { least: number };
 }
 
 export function read(text: string): Report {
@@ -225,5 +233,6 @@ export function read(text: string): Report {
         waypoints: json.waypoints.position.map((text: string) => column(text, json.waypoints.count, json.waypoints.unit)),
         deviation: { rows: json.deviation.rows, mm: column(json.deviation.mm, json.deviation.count, json.deviation.unit) },
         strips: strips(json.strips),
+        target: { ...bins(json.target), least: json.target.least_s },
     };
 }

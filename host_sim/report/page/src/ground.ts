@@ -18,7 +18,7 @@ export function segments(ends: number[], color: number | string): LineSegments {
 /** A grid at the foot of the box, and where its labels stand. */
 export function grid(motion: Motion, low: Vector3, high: Vector3, color: number): { lines: LineSegments; ticks: Tick[] } {
     const size = Math.max(...high.clone().sub(low).toArray(), 1e-6);
-    const step = niceStep(size, 8);
+    const step = niceStep(Math.max(high.x - low.x, high.y - low.y, size / 6), 8);
     const floor = (v: number) => Math.floor(v / step - 1e-9) * step;
     const ceil = (v: number) => Math.ceil(v / step + 1e-9) * step;
     const [x0, x1, y0, y1] = [floor(low.x), ceil(high.x), floor(low.y), ceil(high.y)];
@@ -37,8 +37,8 @@ export function grid(motion: Motion, low: Vector3, high: Vector3, color: number)
         ends.push(x0, y, z, x1, y, z);
         if (axis(1)) label(x0 - 0.35 * step, y, z, tick(y, step));
     }
-    if (axis(0)) label((x0 + x1) / 2, y0 - 0.95 * step, z, `${axis(0).name} [${axis(0).unit}]`, true);
-    if (axis(1)) label(x0 - 0.95 * step, (y0 + y1) / 2, z, `${axis(1).name} [${axis(1).unit}]`, true);
+    if (axis(0)) label(x1 + 0.9 * step, y0 - 0.35 * step, z, `${axis(0).name} [${axis(0).unit}]`, true);
+    if (axis(1)) label(x0 - 0.35 * step, y1 + 0.4 * step, z, `${axis(1).name} [${axis(1).unit}]`, true);
     if (axis(2) && high.z - z > 0.02 * size) {
         const up = niceStep(high.z - z, 4);
         ends.push(x0, y1, z, x0, y1, high.z);

@@ -7,6 +7,7 @@ import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeome
 import type { Colouring, Pieces } from "./pieces";
 
 const most_wide = 60000; // pieces that are drawn as wide lines
+const most_wide_moving = 8000; // that stay wide while the picture moves
 const most_moving = 30000; // that are drawn while the picture moves
 const block = 64; // pieces that stay together then
 
@@ -22,11 +23,13 @@ export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[],
             colours[6 * n + k] = colour[k % 3];
         }
     });
+    let wide: Object3D | undefined;
     if (chosen.length <= most_wide) {
         const geometry = new LineSegmentsGeometry();
         geometry.setPositions(ends);
         geometry.setColors(colours);
-        return [new LineSegments2(geometry, prepare(new LineMaterial({ vertexColors: true, linewidth: 2.6 })))];
+        wide = new LineSegments2(geometry, prepare(new LineMaterial({ vertexColors: true, linewidth: 2.6 })));
+        if (chosen.length <= most_wide_moving) return [wide];
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(ends, 3));
@@ -37,7 +40,9 @@ export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[],
     for (let n = 0; n < chosen.length; ++n) if (Math.floor(n / block) % every === 0) some.push(2 * n, 2 * n + 1);
     const part = new BufferGeometry().setIndex(some);
     for (const name of ["position", "color"]) part.setAttribute(name, geometry.getAttribute(name));
-    return [new LineSegments(geometry, material), new LineSegments(part, material)];
+    const drawn = [geometry, part].map((of) => new LineSegments(of, material));
+    for (const lines of drawn) lines.frustumCulled = false; // its sphere takes long to find
+    return [wide ?? drawn[0], drawn[1]];
 }
 
 /** Dashes that run on from piece to piece. @param ends x, y, z of the begin and of the end of each piece */

@@ -9,12 +9,14 @@ import * as panels from "./panels";
 import type { Quantity } from "./pieces";
 import { units } from "./pieces";
 import { Player } from "./player";
+import { preparedRenderer } from "./renderer";
 import { Space, type View } from "./scene";
 import { Strips, type Over } from "./strips";
 
+const renderer = preparedRenderer();
 const report = read(document.getElementById("data")!.textContent!);
 const motion = new Motion(report);
-const space = new Space(motion);
+const space = new Space(motion, renderer);
 const strips = new Strips(motion);
 const player = new Player(motion);
 const listing = new Listing(motion);
@@ -52,16 +54,16 @@ function drawLegend(): void {
     const bar = el("canvas", { width: "120", height: "1" });
     const draw = bar.getContext("2d")!;
     for (let i = 0; i < 120; ++i) {
-        draw.fillStyle = css(ramp(i / 119, dark));
+        draw.fillStyle = css(ramp(i / 119, document.documentElement.dataset.theme === "dark"));
         draw.fillRect(i, 0, 1, 1);
     }
     legend.replaceChildren(el("div", { class: "scale" }, "0", bar, `${number(coloured.top, 4)} ${units[quantity]}`));
 }
 
-function dress(): void {
-    document.documentElement.dataset.theme = dark ? "dark" : "light";
-    space.dress(dark);
-    strips.dress(dark);
+function dress(night: boolean): void {
+    document.documentElement.dataset.theme = night ? "dark" : "light";
+    space.dress(night);
+    strips.dress(night);
     moveTo(player.time);
     drawLegend();
 }
@@ -133,11 +135,11 @@ const header = el("header", {},
         big("cycle time", `${number(s.cycle_time_s, 5)} s`),
         ...(s.cycle_time_s >= 60 ? [big("that is", duration(s.cycle_time_s))] : []),
         ...(s.optimum_time_s ? [big("optimum", `${number(s.optimum_time_s, 5)} s`)] : []),
-        big("path length", `${number(s.length_mm, 5)} mm`),
+        big("path length", `${number(report.stopped ? report.strips.whole : s.length_mm, 5)} mm`),
         big("largest speed", `${number(s.max_speed_mm_s, 4)} mm/s`),
         big("stops", String(s.stops)),
     ] : []),
-    el("button", { class: "theme", title: "light or dark (d)", "aria-label": "light or dark", click: () => ((dark = !dark), dress()) }, "\u25d0"),
+    el("button", { class: "theme", title: "light or dark (d)", "aria-label": "light or dark", click: () => dress((dark = !dark)) }, "\u25d0"),
 );
 const banner = report.stopped ? el("div", { class: "banner", role: "alert" }, report.stopped) : "";
 
@@ -149,6 +151,7 @@ const contents: [string, boolean, () => HTMLElement][] = [
     ["Lines", moves, () => panels.costly(motion, go)],
     ["Stops", moves, () => panels.stops(motion, go)],
     ["Events", report.events.length + report.operated.length > 0, () => panels.events(motion, go)],
+    ["Drives", Boolean(s.link), () => panels.drives(motion)],
     ["Layers", rising.length > 0, () => panels.layerTable(rising, go)],
 ];
 const pages = contents.filter(([, there]) => there).map(([name, , make]) => ({ name, make, page: el("div", { class: "page" }) }));
@@ -165,6 +168,7 @@ function open(chosen: number): void {
 }
 
 document.title = `${report.program} - splinefeed report`;
+document.body.classList.toggle("still", !moves);
 document.getElementById("app")!.append(
     header,
     ...(banner ? [banner] : []),
@@ -176,7 +180,7 @@ document.getElementById("app")!.append(
     el("aside", {}, readout.element, el("nav", { role: "tablist" }, ...tabs), el("div", { class: "pages" }, ...pages.map(({ page }) => page))),
 );
 open(report.lines.text.length || !moves ? 0 : 1);
-dress();
+dress(dark);
 space.look(space.flat ? "top" : "free");
 player.go(report.stopped ? motion.end : 0);
 
@@ -194,9 +198,17 @@ const keys: Record<string, () => void> = {
     "2": () => space.look("top"),
     "3": () => space.look("front"),
     "4": () => space.look("side"),
-    d: () => ((dark = !dark), dress()),
+    d: () => dress((dark = !dark)),
 };
-addEventListener("beforeprint", () => pages.forEach((_, i) => fill(i)));
+function print(prints: boolean): void {
+    document.body.classList.toggle("printing", prints);
+    pages.forEach((_, i) => fill(i));
+    dress(dark && !prints);
+    space.snap();
+    strips.resize();
+}
+addEventListener("beforeprint", () => print(true));
+addEventListener("afterprint", () => print(false));
 addEventListener("keydown", (event) => {
     const tag = (event.target as HTMLElement).tagName;
     if (event.ctrlKey || event.metaKey || event.altKey || tag === "SELECT" || (tag === "INPUT" && event.key.startsWith("Arrow"))) return;

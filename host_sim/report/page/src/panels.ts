@@ -62,9 +62,10 @@ export class Readout {
         const { report } = this.motion;
         const position = this.motion.position(t);
         report.machine.axes.forEach((axis, k) => {
-            const share = (channel: number, limit: number, unit: string) => {
+            const share = (channel: number, limit: number) => {
                 const [low, high] = this.strips.value(channel + 3 * k, t);
-                if (!(limit > 0)) return `${number((low + high) / 2, 3)} ${unit}`;
+                const middle = (low + high) / 2;
+                if (!(limit > 0)) return axis.unit === "mm" ? `${number(middle / 1000, 3)} m/s\u00b3` : `${number(middle, 3)} deg/s\u00b3`; // of jerk alone
                 const value = Math.abs(high) > Math.abs(low) ? high : low;
                 return `${number(value * limit, 3)} (${Math.round(100 * value)} %)`;
             };
@@ -72,10 +73,10 @@ export class Readout {
             const v = this.strips.value(1 + 3 * k, t);
             const brakes = (low + high) * (v[0] + v[1]) < 0;
             const texts = [
-                number(position[k], 6),
-                share(1, axis.velocity, `${axis.unit}/s`),
-                share(2, brakes ? axis.braking : axis.acceleration, `${axis.unit}/s\u00b2`),
-                share(3, axis.jerk, `${axis.unit}/s\u00b3`),
+                position[k].toFixed(4),
+                share(1, axis.velocity),
+                share(2, brakes ? axis.braking : axis.acceleration),
+                share(3, axis.jerk),
             ];
             texts.forEach((text, i) => (this.cells[k][i + 1].textContent = text));
         });
@@ -127,9 +128,7 @@ export function summary(motion: Motion): HTMLElement {
         more.push(["with exact stops", `${number(of.exact_stop_time_s, 5)} s (estimated)`]);
         parts.push(el("h3", {}, "Within the tolerance"), facts(more));
     }
-    for (const [key, title] of [["link", "Link"], ["gpio", "Lines"]] as const) {
-        if (s[key]) parts.push(el("h3", {}, title), facts(flat(s[key])));
-    }
+    if (s.gpio) parts.push(el("h3", {}, "Lines"), facts(flat(s.gpio)));
     const { path, programmed, strips } = report;
     parts.push(el("h3", {}, "Of this page"), facts([
         ["path", `${path.count} points; none that was left out is farther than ${number(path.tolerance, 2)} mm${path.leftOut ? "; stops were too many to keep all" : ""}`],
@@ -138,6 +137,33 @@ export function summary(motion: Motion): HTMLElement {
         ...(report.stops.length < report.stopCount ? [["stops", `${report.stops.length} of ${report.stopCount} are listed`] as [string, string]] : []),
     ]));
     return el("div", {}, ...parts);
+}
+
+/** Of a run on drives: their links, and how much motion they had and how late they were. */
+export function drives(motion: Motion): HTMLElement {
+    const { link } = motion.report.summary;
+    const { least, high } = motion.report.target;
+    const rows: [string, string][] = [
+        ["least buffered", least >= 0 ? `${number(1000 * least, 3)} ms of motion, before the last of it had come` : "-"],
+        ["latest", `${number(1000 * high[1].reduce((a, b) => Math.max(a, b), 0), 3)} ms`],
+        ["stopped together", `${link.resumes} time${link.resumes === 1 ? "" : "s"}, on the path`],
+        ["clocks known to", `${number(1e6 * link.clocks_known_to_s, 3)} \u00b5s from each other`],
+        ["time of the buses' threads", `${number(link.bus_time_s, 3)} s`],
+        ...(link.target_period_s ? [
+            ["time between targets", `${number(1000 * link.target_period_s, 3)} ms`],
+            ["path error between them", `${number(link.between_targets_mm, 3)} mm at most`],
+            ["latest target", `${number(1000 * link.latest_target_s, 3)} ms`],
+        ] as [string, string][] : []),
+    ];
+    const keys = Object.keys(link.drives[0] ?? {}).filter((key) => key !== "address");
+    const losses = keys.filter((key) => key !== "exchanges" && key !== "segments" && key !== "targets" && link.drives.some((drive: Json) => drive[key] > 0));
+    const shown = keys.filter((key) => losses.includes(key) || key === "exchanges" || key === "segments" || key === "targets");
+    return el("div", {},
+        el("h3", {}, "The drives and their links"), facts(rows),
+        table(["", ...link.drives.map((_: Json, i: number) => `drive ${i + 1}`)], shown.map((key) => ({ cells: [key, ...link.drives.map((drive: Json) => String(drive[key]))] }))),
+        ...(losses.length ? [] : [el("p", { class: "note" }, "Nothing was lost on a link.")]),
+        facts(link.drives.map((drive: Json, i: number) => [`drive ${i + 1}`, drive.address] as [string, string])),
+    );
 }
 
 function flat(object: Json, prefix = ""): [string, string][] {
@@ -258,7 +284,7 @@ export function tools(motion: Motion): HTMLElement | "" {
 export function layerTable(all: Layer[], go: Go): HTMLElement {
     const longest = all.reduce((a, layer) => Math.max(a, layer.seconds), 1e-9);
     const rows = all.slice(0, 10000).map((layer, i) => ({
-        cells: [String(i + 1), `${number(layer.z, 5)} mm`, meter(layer.seconds / longest, "#2a788e", duration(layer.seconds))],
+        cells: [String(i + 1), `${Number(layer.z.toFixed(4))} mm`, meter(layer.seconds / longest, "#2a788e", duration(layer.seconds))],
         go: () => go(layer.start),
     }));
     const title = `${all.length} layers${rows.length < all.length ? `, the first ${rows.length}` : ""}`;

@@ -36,12 +36,13 @@ export function divide(motion: Motion): Pieces {
     const count = Math.max(times.length - 1, 0);
     const xyz = new Float32Array(3 * times.length);
     const drawn = new Uint8Array(count);
-    times.forEach((t, i) => {
+    const axes = motion.space.map((k) => path.position[k]);
+    for (let i = 0; i < times.length; ++i) {
         const whole = i + 1 === times.length || knots[i + 1] !== knots[i]; // a point of the report
-        const position = whole ? path.position.map((axis) => axis[knots[i]]) : motion.position(t);
-        xyz.set(motion.place(position), 3 * i);
+        const position = whole ? undefined : motion.place(motion.position(times[i]));
+        for (let k = 0; k < 3; ++k) xyz[3 * i + k] = position ? position[k] : (axes[k]?.[knots[i]] ?? 0);
         if (i > 0) drawn[i - 1] = path.kind[knots[i]] !== Kind.standing ? 1 : 0;
-    });
+    }
     return { count, xyz, time: Float64Array.from(times), knot: Uint32Array.from(knots.slice(1)), drawn };
 }
 

@@ -21,18 +21,18 @@ const directions: Record<View, [number, number, number]> = {
     front: [0, -1, 0],
     side: [1, 0, 0],
 };
-const pause_ms = 150; // without a move: all are drawn
+const pause_ms = 250; // without a move: all are drawn
 
 export class Space {
     readonly element = el("div", { class: "space" });
     readonly pieces: Pieces;
+    private readonly programmed: Float32Array; // x, y, z of each point
     quantity: Quantity = "speed";
     coloured!: Colouring;
     onPick: (t: number) => void = () => {};
     /** What lies over the picture: no label goes there. */
     covers: HTMLElement[] = [];
 
-    private readonly renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     private readonly scene = new Scene();
     private readonly camera = new OrthographicCamera();
     private readonly controls: OrbitControls;
@@ -44,9 +44,11 @@ export class Space {
     private readonly high = new Vector3(-Infinity, -Infinity, -Infinity);
     private readonly groups: Record<string, Group> = {};
     private readonly planes = [new Plane(new Vector3(0, 0, 1), 1e9), new Plane(new Vector3(0, 0, -1), 1e9)];
-    private all!: Object3D; // of the path
+    private all?: Object3D; // of the path
     private some?: Object3D; // if the pieces are too many to move all of them
     private rest = 0; // a timer, while the picture moves
+    private held = false; // by the pointer
+    private clipped = false; // by the planes
     private ticks: Tick[] = [];
     private dark = false;
     private asked = false;
@@ -58,18 +60,20 @@ export class Space {
         return this.high.z - this.low.z < 1e-6 * this.size;
     }
 
-    constructor(private readonly motion: Motion) {
+    constructor(private readonly motion: Motion, private readonly renderer: WebGLRenderer) {
         this.pieces = divide(motion);
+        const { programmed } = motion.report;
+        const axes = motion.space.map((k) => programmed.position[k]);
+        this.programmed = Float32Array.from({ length: 3 * programmed.count }, (_, i) => axes[i % 3]?.[Math.floor(i / 3)] ?? 0);
         this.measure();
-        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-        this.renderer.localClippingEnabled = true;
-        this.renderer.debug.checkShaderErrors = false; // the page would wait
         this.element.append(this.renderer.domElement, this.labels, el("div", { class: "labels" }, this.ghost, this.tool));
         this.hover(-1);
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, this.renderer.domElement);
         this.controls.zoomToCursor = true;
         this.controls.addEventListener("change", () => this.moves());
+        this.controls.addEventListener("start", () => (this.held = true));
+        this.controls.addEventListener("end", () => ((this.held = false), this.moves()));
         for (const name of ["ground", "travel", "programmed", "rapids", "path", "arrows", "points", "stops", "marks"]) {
             this.scene.add((this.groups[name] = new Group()));
         }
@@ -115,8 +119,8 @@ export class Space {
         }
         [this.all, this.some] = coloured(this.pieces, this.coloured, chosen, (material) => this.material(material));
         this.groups.path.clear();
-        this.groups.path.add(this.all);
-        if (this.some) this.groups.path.add(this.some);
+        this.add("path", this.all);
+        this.add("path", this.some);
         this.moves();
     }
 
@@ -129,7 +133,13 @@ export class Space {
     layers(low: number, high: number): void {
         this.planes[0].constant = -low;
         this.planes[1].constant = high;
-        this.draw();
+        this.clipped = low > -1e9 || high < 1e9;
+        for (const name of ["path", "programmed", "rapids", "arrows"]) {
+            this.groups[name].traverse((object) => {
+                if (object instanceof Line || object instanceof LineSegments2) this.material(object.material);
+            });
+        }
+        this.moves();
     }
 
     look(view: View): void {
@@ -159,14 +169,16 @@ export class Space {
     private moves(): void {
         if (this.some) {
             clearTimeout(this.rest);
-            this.rest = window.setTimeout(() => this.thin(false), pause_ms);
+            if (!this.held) this.rest = window.setTimeout(() => this.thin(false), pause_ms);
         }
         this.thin(this.some !== undefined);
     }
 
     private thin(thin: boolean): void {
-        this.all.visible = !thin;
+        if (this.all) this.all.visible = !thin;
         if (this.some) this.some.visible = thin;
+        const [line] = this.groups.programmed.children;
+        if (line) line.visible = !thin;
         this.element.dataset.drawn = thin ? "some" : "all";
         this.draw();
     }
@@ -182,23 +194,20 @@ export class Space {
     }
 
     private material<M extends Material>(material: M): M {
-        material.clippingPlanes = this.planes;
+        material.clippingPlanes = this.clipped ? this.planes : null; // another program of the renderer
         return material;
     }
 
     private measure(): void {
-        const { xyz } = this.pieces;
-        const point = new Vector3();
-        for (let i = 0; i < xyz.length; i += 3) {
-            point.fromArray(xyz, i);
-            this.low.min(point);
-            this.high.max(point);
-        }
-        const { programmed } = this.motion.report;
-        for (let i = 0; i < programmed.count; ++i) {
-            point.set(...this.motion.place(programmed.position.map((axis) => axis[i])));
-            this.low.min(point);
-            this.high.max(point);
+        for (const xyz of [this.pieces.xyz, this.programmed]) {
+            const low = [Infinity, Infinity, Infinity];
+            const high = low.map((v) => -v);
+            for (let i = 0; i < xyz.length; ++i) {
+                low[i % 3] = Math.min(low[i % 3], xyz[i]);
+                high[i % 3] = Math.max(high[i % 3], xyz[i]);
+            }
+            this.low.min(new Vector3(...low));
+            this.high.max(new Vector3(...high));
         }
         if (!Number.isFinite(this.low.x)) this.low.set(0, 0, 0), this.high.set(1, 1, 1);
         this.size = Math.max(...this.high.clone().sub(this.low).toArray(), 1e-6);
@@ -224,17 +233,21 @@ export class Space {
         const stride = 3 * Math.max(1, Math.floor(xyz.length / 3 / 20000));
         const at = new Vector3();
         let [x, y] = [0, 0];
-        for (let i = 0; i < xyz.length; i += stride) {
-            at.fromArray(xyz, i).applyMatrix4(inverse);
+        const cover = () => {
+            at.applyMatrix4(inverse);
             x = Math.max(x, Math.abs(at.x - centre.x));
             y = Math.max(y, Math.abs(at.y - centre.y));
+        };
+        for (let i = 0; i < xyz.length; i += stride) {
+            at.fromArray(xyz, i);
+            cover();
         }
-        for (let corner = 0; corner < 4; ++corner) { // the ground's
-            at.set(corner & 1 ? this.high.x : this.low.x, corner & 2 ? this.high.y : this.low.y, this.low.z).applyMatrix4(inverse);
-            y = Math.max(y, 0.88 * Math.abs(at.y - centre.y));
-            x = Math.max(x, 0.88 * Math.abs(at.x - centre.x));
+        for (const tick of this.ticks) {
+            at.copy(tick.at);
+            cover();
         }
-        const half = Math.max(y * 1.32, (x * 1.22 * h) / w, 1e-6);
+        const room = (pixels: number, of: number) => Math.max(1 - pixels / of, 0.3); // of labels and, above, of what lies there
+        const half = Math.max(y / room(76, h), (x / room(60, w)) * (h / w), 1e-6);
         this.camera.top = half;
         this.camera.bottom = -half;
         this.camera.right = (half * w) / h;
@@ -247,12 +260,21 @@ export class Space {
     draw(): void {
         if (this.asked) return;
         this.asked = true;
-        requestAnimationFrame(() => {
-            this.asked = false;
-            this.renderer.render(this.scene, this.camera);
-            this.drawLabels();
-            this.drawCursors();
-        });
+        requestAnimationFrame(() => this.render());
+    }
+
+    private render(): void {
+        this.asked = false;
+        this.renderer.render(this.scene, this.camera);
+        this.drawLabels();
+        this.drawCursors();
+    }
+
+    /** At once, all of it, in the size that its element has now. */
+    snap(): void {
+        this.resize();
+        this.thin(false);
+        this.render();
     }
 
     private drawCursors(): void {
@@ -264,13 +286,10 @@ export class Space {
     }
 
     private drawProgrammed(colour: string): void {
-        const { programmed } = this.motion.report;
-        const xyz = new Float32Array(3 * programmed.count);
-        for (let i = 0; i < programmed.count; ++i) {
-            xyz.set(this.motion.place(programmed.position.map((axis) => axis[i])), 3 * i);
-        }
-        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(xyz, 3));
-        this.groups.programmed.add(new Line(geometry, this.material(new LineBasicMaterial({ color: colour }))));
+        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(this.programmed, 3));
+        const line = new Line(geometry, this.material(new LineBasicMaterial({ color: colour })));
+        line.frustumCulled = false;
+        this.groups.programmed.add(line);
     }
 
     private drawRapids(colour: string): void {

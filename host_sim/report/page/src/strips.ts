@@ -99,7 +99,7 @@ export class Strips {
             this.element.append(el("p", { class: "note" }, "There is no motion."));
             return;
         }
-        const plots = [this.speed(), ...rows.map((row) => this.shares(row))];
+        const plots = [this.speed(), ...rows.map((row) => this.shares(row)), ...(report.target.count ? [this.buffers()] : [])];
         plots.forEach((options, i) => this.frame(options.options, i === plots.length - 1));
         this.plots = plots.map(({ options, data }) => {
             const holder = el("div", { class: "strip" }, el("span", { class: "caption" }, options.title!));
@@ -144,6 +144,25 @@ export class Strips {
                 hooks: { draw: [(plot) => this.drawBand(plot)] },
             },
             data: [this.xs, this.curve(0, 1), feed],
+        };
+    }
+
+    /** What a target has buffered, and how late it is, over the time of the motion. */
+    private buffers(): { options: uPlot.Options; data: uPlot.AlignedData } {
+        const { count, bin, low, high } = this.motion.report.target;
+        const xs = Float64Array.from({ length: 2 * count }, (_, i) => this.x(Math.min((Math.floor(i / 2) + (i % 2 ? 0.75 : 0.25)) * bin, this.motion.end)));
+        const curve = (c: number) => xs.map((_, i) => 1000 * (i % 2 ? high : low)[c][i >> 1]);
+        const data = [curve(0), curve(1)];
+        const most = data.reduce((a, values) => values.reduce((b, v) => Math.max(b, v), a), 1);
+        return {
+            options: {
+                title: "motion in the target's buffers [ms]; dashed: how late it is [ms]",
+                width: 100,
+                height: 60,
+                series: [{}, { stroke: "#009e73", width: 1.3, points: { show: false } }, { stroke: this.dark ? "#ff9955" : "#d55e00", width: 1.5, dash: [5, 3], points: { show: false } }],
+                scales: { y: { range: [0, 1.12 * most] } },
+            },
+            data: [xs, ...data],
         };
     }
 
@@ -294,7 +313,7 @@ export class Strips {
         for (const plot of this.plots) plot.setScale("x", { min: from, max: from + span });
     }
 
-    private resize(): void {
+    resize(): void {
         const { clientWidth: w, clientHeight: h } = this.element;
         if (!w || !h || !this.plots.length) return;
         const foot = 32;

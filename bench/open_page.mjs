@@ -1,0 +1,35 @@
+#!/usr/bin/env node
+// SPDX-License-Identifier: MIT
+// How long a page of a report takes to open, and to turn: open_page.mjs PAGE_DIRECTORY (which tests/report/bundle.sh has filled) PAGE.html.
+// One line: seconds to the first picture, seconds to all of it, milliseconds a frame while it is turned; each the least of three.
+import { pathToFileURL } from "node:url";
+import { launched, offline } from "../tests/report/browser.mjs";
+
+const [packages, file] = process.argv.slice(2);
+const browser = await launched(packages);
+const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const figures = [];
+for (let round = 0; round < 3; ++round) {
+    const page = await offline(browser);
+    const begin = performance.now();
+    await page.goto(pathToFileURL(file).href);
+    await page.waitForSelector(".space[data-tool]");
+    await frame(page);
+    const first = performance.now();
+    await page.waitForSelector('.space[data-drawn="all"]');
+    await frame(page);
+    const all = performance.now();
+    const box = await page.locator(".space").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    const turns = performance.now();
+    const frames = 20;
+    for (let i = 1; i <= frames; ++i) {
+        await page.mouse.move(box.x + box.width / 2 + 5 * i, box.y + box.height / 2 + 2 * i);
+        await page.evaluate(() => new Promise(requestAnimationFrame));
+    }
+    figures.push([(first - begin) / 1000, (all - begin) / 1000, (performance.now() - turns) / frames]);
+    await page.context().close();
+}
+await browser.close();
+console.log(figures[0].map((_, k) => Math.min(...figures.map((of) => of[k])).toFixed(3)).join(" "));
