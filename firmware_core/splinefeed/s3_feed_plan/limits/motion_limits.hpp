@@ -100,8 +100,8 @@ constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
     return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
 }
 
-/// The largest jerk that the emitted motion can have, whatever is planned: it goes from one acceleration to the
-/// opposite one within a segment at least (feed.md, step 7 of the proof). A jerk limit above it does not bind.
+/// The largest jerk that the emitted motion can have, whatever is planned. In a segment it goes at most from one
+/// acceleration to the opposite one (feed.md, step 7 of the proof). A jerk limit above it does not bind.
 constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexcept {
     const double jerk = (axis.max_acceleration_mm_s2 + axis.braking_mm_s2()) / segment_s;
     return jerk < 1073741824.0 ? jerk : 1073741824.0; // above every limit, and in the range of a Fixed
