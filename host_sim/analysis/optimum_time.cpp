@@ -18,8 +18,6 @@
 // Rounding of D is allowed for on the fast side: an axis that hardly moves must not bind by its noise.
 #include "host_sim/analysis/optimum_time.hpp"
 
-#include "host_sim/base/stopwatch.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -56,7 +54,6 @@ OptimumTime::OptimumTime(const MachineSettings& machine, double direction_jump, 
 }
 
 void OptimumTime::segment(const CurveSegment<double>& segment) {
-    const Stopwatch stopwatch(spent_);
     fresh_.clear();
     grid_.append(segment, fresh_);
     for (const PathInterval& interval : fresh_) {
@@ -75,7 +72,6 @@ void OptimumTime::add(const PathInterval& interval) {
 }
 
 void OptimumTime::finish() {
-    const Stopwatch stopwatch(spent_);
     advance(0.0, stages_.size());
 }
 

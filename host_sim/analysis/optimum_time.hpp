@@ -11,7 +11,6 @@
 #include "host_sim/analysis/path_grid.hpp"
 #include "host_sim/base/compensated_sum.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,8 +43,6 @@ public:
     /// @pre finish() was called
     [[nodiscard]] double seconds() const noexcept { return seconds_.value(); }
     [[nodiscard]] std::uint64_t nodes() const noexcept { return nodes_; }
-    /// Time that this computation has taken.
-    [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
 
 private:
     struct Stage {
@@ -70,7 +67,6 @@ private:
     double start_sq_ = 0.0;           // b at the committed node
     CompensatedSum seconds_;
     std::uint64_t nodes_ = 0;
-    std::chrono::steady_clock::duration spent_{};
 };
 
 } // namespace splinefeed::host

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_deviation.hpp"
 
-#include "host_sim/base/stopwatch.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -20,6 +18,7 @@ constexpr int parts_a_move = 4; // of a segment through several
 constexpr std::size_t halves_of_blend = 2;
 constexpr int searches = 24; // of the golden section: 1e-5 of a part
 constexpr double golden = 0.6180339887498949;
+constexpr double peak_over_sample = 1.5; // at most, of a distance between the looks at a segment
 
 /// The argument between low and high where `value` is largest, if it has one maximum there.
 template <class Value>
@@ -87,7 +86,6 @@ void PathDeviation::start(const PerAxis<Position>& position) {
 }
 
 void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
-    const Stopwatch stopwatch(spent_);
     Move added{.strand = PathStrand(here_, move, axes_),
                .mode = move.stop_at_end ? PathMode::exact_stop : move.mode,
                .tolerance = move.tolerance_mm,
@@ -255,7 +253,9 @@ void PathDeviation::measure_segment(const Segment& segment) {
                 worst = i;
             }
         }
-        if (largest.distance > slack_mm) {
+        // A distance that can be neither the largest one nor too large need not be found to the last digit.
+        const double matters = listener_ ? 0.0 : std::fmin(largest_[s].distance, largest.allowed);
+        if (largest.distance > slack_mm && largest.distance * peak_over_sample >= matters) {
             const double t = argument_of_largest(std::max(worst - 1, 0) / static_cast<double>(parts),
                                                  std::min(worst + 1, parts) / static_cast<double>(parts),
                                                  [&](double u) { return at(u).distance; });
@@ -301,7 +301,6 @@ void PathDeviation::accept(std::size_t kept, std::uint64_t last) {
 }
 
 void PathDeviation::segment(const CurveSegment<double>& segment) {
-    const Stopwatch stopwatch(spent_);
     const std::uint64_t known = oldest_ + moves_.size();
     if (known == 0) {
         return;
@@ -320,7 +319,6 @@ void PathDeviation::segment(const CurveSegment<double>& segment) {
 }
 
 void PathDeviation::finish() {
-    const Stopwatch stopwatch(spent_);
     accept(0, oldest_ + moves_.size() - 1);
     measure_moves_before(oldest_ + moves_.size());
 }

@@ -6,7 +6,6 @@
 #include "host_sim/analysis/path_strand.hpp"
 #include "host_sim/config/machine_description.hpp"
 
-#include <chrono>
 #include <deque>
 #include <functional>
 #include <string>
@@ -58,8 +57,6 @@ public:
     [[nodiscard]] bool has_rotary() const noexcept { return sets_[1].count > 0; }
     /// The worst one; nothing: every move kept its tolerance.
     [[nodiscard]] const std::optional<Excess>& excess() const noexcept { return excess_; }
-    /// Time that the calls took.
-    [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
 
 private:
     struct Move {
@@ -119,7 +116,6 @@ private:
     PerAxis<Position> whole_end_{}; // its end
     double left_out_ = 0.0;         // how far the moves behind it led away from there
     std::optional<Excess> excess_;
-    std::chrono::steady_clock::duration spent_{};
 };
 
 /// "the path is 0.02 mm from element 3; its tolerance is 0.01 mm"

@@ -249,8 +249,8 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
                       "MM: of G64 without P, and of a program without G64, 0 to 100 (default: the machine file's)");
     add_gcode_options(*check, job);
     check->add_option("--scalar", typed.scalar,
-                      "fixed, float or double: number type of the computation (default fixed); float not with a jerk "
-                      "limit");
+                      "fixed, float or double: number type of the computation (default double, which is faster); float "
+                      "not with a jerk limit");
     check->add_option("--report", job.run.outputs.report,
                       "R.html: a page that shows the motion, its limits and the program in a browser");
     check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
@@ -361,7 +361,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     }
     take_start(job, typed.start);
     take_format(job, typed.format);
-    take_scalar(job, typed.scalar.value_or("fixed"));
+    take_scalar(job, typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"));
     take_window(job, typed.window);
     take_outputs(job, command, typed.json ? "json" : typed.summary);
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {

@@ -193,15 +193,19 @@ bool SimulatedMachine::execute(const FeedSegment& segment) {
         started_ = true;
         trace_row();
     }
-    survey(motion);
-    for (int j = 0; j <= options_.ticks_per_segment; ++j) {
+    if (options_.measures) {
+        survey(motion);
+    } else {
+        std::copy(segment.end.begin(), segment.end.end(), position_.begin());
+    }
+    for (int j = 0; options_.measures && j <= options_.ticks_per_segment; ++j) {
         if (!tick(motion, j)) {
             return false;
         }
     }
     for (unsigned k = 0; k < axes_; ++k) {
         velocity_[k] = segment.end_velocity[k];
-        acceleration_[k] = motion.cubic[k].acceleration(1.0);
+        acceleration_[k] = options_.measures ? motion.cubic[k].acceleration(1.0) : 0.0;
     }
     duration_ticks_ = segment.duration_ticks;
     elapsed_ticks_ += segment.duration_ticks;

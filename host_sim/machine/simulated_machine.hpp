@@ -43,6 +43,7 @@ struct LimitUse {
 
 struct SimulationOptions {
     bool enforce = true;       ///< false: limits are only measured (chain, duration and underrun are still faults)
+    bool measures = true;      ///< false: only the chain is looked at, and the time counts
     int ticks_per_segment = 8; ///< rate of the machine's own interpolation, 1 to 1024
     int queue = 64;            ///< largest number of waiting segments
     TraceSink* trace = nullptr;

@@ -115,12 +115,14 @@ void write_sentences(Lines out, const Summary& summary) {
 void write_help(Lines out, const Summary& summary) {
     constexpr double least = 0.0005;
     constexpr std::size_t most = 5;
-    const auto& all = *summary.what_would_help;
+    const std::uint64_t moves = summary.what_would_help->moves;
+    const auto& all = summary.what_would_help->limits;
     if (all.empty() || all.front().gain < least) {
         fmt::format_to(out, "\nwhat would help       no limit alone: 10 % more of one saves less than 0.05 %\n");
         return;
     }
-    fmt::format_to(out, "\n{:<22}{:>14}    10 % more of one limit, planned again\n", "what would help", "cycle time");
+    fmt::format_to(out, "\n{:<22}{:>14}    10 % more of one limit, planned again{}\n", "what would help", "cycle time",
+                   moves > 0 ? fmt::format(" for the first {} moves", moves) : std::string());
     for (std::size_t i = 0; i < std::min(most, all.size()) && all[i].gain >= least; ++i) {
         fmt::format_to(out, "{:<22}{:>14.6f} s  {:.1f} % less\n", "  " + all[i].limit, all[i].cycle_time_s,
                        100.0 * all[i].gain);
@@ -129,7 +131,7 @@ void write_help(Lines out, const Summary& summary) {
 
 Json help_json(const Summary& summary) {
     Json out = Json::array();
-    for (const RaisedLimit& raised : *summary.what_would_help) {
+    for (const RaisedLimit& raised : summary.what_would_help->limits) {
         out.push_back({{"limit", raised.limit}, {"cycle_time_s", raised.cycle_time_s}, {"gain", raised.gain}});
     }
     return out;
@@ -249,6 +251,9 @@ std::string to_json(const Summary& summary) {
     object["peak_rss_bytes"] = summary.peak_rss_bytes;
     object["limit_share"] = share_json(summary);
     object["what_would_help"] = summary.what_would_help ? help_json(summary) : Json(nullptr);
+    if (summary.what_would_help && summary.what_would_help->moves > 0) {
+        object["what_would_help_moves"] = summary.what_would_help->moves;
+    }
     if (summary.events + summary.events_not_reached > 0) {
         object["events"] = summary.events;
         object["events_not_reached"] = summary.events_not_reached;

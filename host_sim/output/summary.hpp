@@ -41,6 +41,11 @@ struct RaisedLimit {
     double gain = 0.0;         ///< part of the cycle time that is saved
 };
 
+struct LimitAdvice {
+    std::vector<RaisedLimit> limits; ///< the largest gain first
+    std::uint64_t moves = 0; ///< the first ones of the program, which stand for all of them; 0: all were planned
+};
+
 struct Summary {
     /// Largest use of an axis's limits on the emitted segments, 1 = at the limit.
     struct AxisUse {
@@ -68,7 +73,7 @@ struct Summary {
     std::optional<double> waypoint_error_mm; ///< nothing: there are no waypoints, or the curve need not pass through
                                              ///< them
     std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; nothing: the run was stopped or steered
-    double planning_time_s = 0.0;
+    double planning_time_s = 0.0; ///< from the start to this summary; on a real machine: how long it computed
     MemoryBytes memory_bytes;
     bool stopped = false;                 ///< the run ended before the program
     std::uint64_t events = 0;             ///< of the operator
@@ -76,16 +81,15 @@ struct Summary {
     /// How often the planning window was too short to know that the plan is the best; nothing: with a jerk limit that
     /// is not known.
     std::optional<std::uint64_t> window_limited;
-    std::uint64_t stops = 0;                   ///< corners where the feed is zero, without the ends
-    double smoothing_bound_mm = 0.0;           ///< largest distance of the emitted motion from the curve
-    std::uint64_t peak_rss_bytes = 0;          ///< memory of the process; 0: unknown
-    std::optional<LimitShares> limit_share;    ///< which limit bound; axes as in limit_use
-    std::optional<ToleranceSummary> tolerance; ///< for elements, and lines within a tolerance
-    /// The largest gain first; nothing: the program was not planned again.
-    std::optional<std::vector<RaisedLimit>> what_would_help;
-    ProgramSummary program;          ///< dwells and events
-    std::optional<LinkSummary> link; ///< for a run on Modbus drives
-    std::optional<GpioSummary> gpio; ///< for a run on lines of GPIO chips
+    std::uint64_t stops = 0;                    ///< corners where the feed is zero, without the ends
+    double smoothing_bound_mm = 0.0;            ///< largest distance of the emitted motion from the curve
+    std::uint64_t peak_rss_bytes = 0;           ///< memory of the process; 0: unknown
+    std::optional<LimitShares> limit_share;     ///< which limit bound; axes as in limit_use
+    std::optional<ToleranceSummary> tolerance;  ///< for elements, and lines within a tolerance
+    std::optional<LimitAdvice> what_would_help; ///< nothing: the program was not planned again
+    ProgramSummary program;                     ///< dwells and events
+    std::optional<LinkSummary> link;            ///< for a run on Modbus drives
+    std::optional<GpioSummary> gpio;            ///< for a run on lines of GPIO chips
 };
 
 /// One JSON object, with a line end. An axis without a jerk limit is omitted under limit_use.jerk and limit_share.jerk.

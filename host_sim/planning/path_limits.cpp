@@ -24,6 +24,14 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
     }
 }
 
+bool PathLimits::contain(const PerAxis<double>& low, const PerAxis<double>& high, double margin) const noexcept {
+    bool all = true;
+    for (const unsigned k : indices(axes_)) {
+        all = all && low[k] - margin >= axis_[k].low && high[k] + margin <= axis_[k].high;
+    }
+    return all;
+}
+
 std::optional<std::string> PathLimits::violation(const CurveSegment<double>& segment) const {
     const auto degree = static_cast<unsigned>(segment.degree);
     for (const unsigned k : indices(axes_)) {

@@ -21,6 +21,9 @@ public:
     /// If the segment leaves the limits, one sentence that says where.
     [[nodiscard]] std::optional<std::string> violation(const CurveSegment<double>& segment) const;
 
+    /// Whether the places from `low` to `high` of all axes are within, with a margin. [mm, degrees]
+    [[nodiscard]] bool contain(const PerAxis<double>& low, const PerAxis<double>& high, double margin) const noexcept;
+
 private:
     struct Axis {
         std::string name;

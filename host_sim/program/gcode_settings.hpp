@@ -49,6 +49,7 @@ struct GcodeSettings {
     double max_feed_mm_s = 0.0;                  ///< of moves with a feed, along the linear axes; 0: none
     std::uint32_t rotary_axes = 0;               ///< bit k: axis k of the machine is rotary
     std::vector<std::string> axes;               ///< names: x, y, z, a, b, c
+    std::uint64_t most_moves = 0;                ///< the program ends behind them; 0: all count
     std::optional<WorkOffsets> offsets{};        ///< of a state file
     PerAxis<Position> start{};                   ///< where the machine stands, in its own coordinates
 };

@@ -226,6 +226,12 @@ void PathInput::begin_at(const MachineState& state) {
     }
 }
 
+void PathInput::end_after(std::uint64_t moves) {
+    if (auto* const program = std::get_if<GcodeSettings>(&content_)) {
+        program->most_moves = moves;
+    }
+}
+
 std::unique_ptr<SourceLines> PathInput::lines() {
     auto lines = std::make_unique<LineReader>(path_, name_);
     return read_ahead_ ? std::unique_ptr<SourceLines>(std::make_unique<LineQueue>(std::move(lines))) : std::move(lines);

@@ -70,6 +70,8 @@ public:
     [[nodiscard]] const GcodeSettings* gcode() const noexcept { return std::get_if<GcodeSettings>(&content_); }
     /// Of a program in G-code: where the machine stands, and its offsets. A place that is not known is taken for 0.
     void begin_at(const MachineState& state);
+    /// Of a program in G-code: only so many moves are read.
+    void end_after(std::uint64_t moves);
     /// Of a program in G-code: what was left out so far, since it was read from its beginning.
     [[nodiscard]] std::vector<LeftOutList::Entry> left_out() const;
     /// The dialect that `--dialect auto` takes and why, one line; else empty.

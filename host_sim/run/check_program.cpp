@@ -131,6 +131,7 @@ int check_program(const RunArguments& arguments) {
     motion_arguments.enforce = false;
     motion_arguments.quiet = true;
     motion_arguments.progress = true;
+    motion_arguments.measures = !arguments.outputs.report.empty();
     motion_arguments.report = &report;
     const PathLimits path_limits(of.machine);
     std::optional<RunReport> page;

@@ -20,21 +20,27 @@ constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the targ
 Motion::Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
                PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
     : quiet_(arguments.quiet), progress_alone_(arguments.progress), enforce_(arguments.enforce),
-      description_(&description), figures_(&figures), input_(&input), outputs_(&outputs), state_(arguments.state),
-      start_(arguments.start), report_(arguments.report), record_(arguments.record), target_(target),
-      deviation_(description.settings, input.tolerances().joint_mm,
-                 input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
+      measures_(arguments.measures), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
+      state_(arguments.state), start_(arguments.start), report_(arguments.report), record_(arguments.record),
+      target_(target), deviation_(description.settings, input.tolerances().joint_mm,
+                                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
       share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),
+      work_(measures_ && target == nullptr && arguments.record == nullptr && input.within_tolerance()),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
                             .error = &error_,
-                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
-                            .optimum = &optimum_,
+                            .deviation = measures_ && input.within_tolerance() ? &deviation_ : nullptr,
+                            .optimum = measures_ ? &optimum_ : nullptr,
+                            .work = &work_,
                             .share = &share_}),
       path_(plan_path(input, description, watch_, arguments.window_cells)), feeder_(path_->feeder()),
-      machine_(description, figures.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
+      machine_(description, figures.segments_per_sample,
+               {.enforce = arguments.enforce,
+                .measures = arguments.measures,
+                .ticks_per_segment = arguments.enforce ? SimulationOptions{}.ticks_per_segment : 1,
+                .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {
     if (record_ != nullptr) {
         deviation_.tell([this](std::uint64_t move, double mm) {
@@ -137,10 +143,10 @@ bool Motion::wait() {
 }
 
 bool Motion::pull(FeedSegment& segment) {
-    const Clock::time_point start = Clock::now();
+    const Clock::time_point start = target_ != nullptr ? Clock::now() : Clock::time_point{};
     late_ = late();
     const bool item = path_->next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
-    planning_ += Clock::now() - start;
+    planning_ += target_ != nullptr ? Clock::now() - start : Clock::duration{};
     if (item && segments_ == 0 && path_->failure()) { // nothing has moved yet
         std::rethrow_exception(path_->failure());
     }
@@ -359,12 +365,17 @@ bool Motion::execute(FeedSegment& segment) {
 void Motion::measure(const PathFeeder::Pushed& pushed) {
     steps_.add(pushed);
     program_.see(pushed);
+    if (!measures_) {
+        return;
+    }
     if (pushed.start) {
         deviation_.start(pushed.position);
         exact_stop_.start(pushed.position);
     } else if (pushed.move != nullptr) {
-        deviation_.move(pushed.move->move, pushed.move->line);
-        exact_stop_.move(pushed.move->move);
+        work_.add([this, move = pushed.move->move, line = pushed.move->line] {
+            deviation_.move(move, line);
+            exact_stop_.move(move);
+        });
     }
 }
 

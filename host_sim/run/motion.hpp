@@ -33,6 +33,7 @@ struct MotionArguments {
     std::size_t window_cells = 1024; ///< look-ahead of the feed plan
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
+    bool measures = true;            ///< false: of the motion only its time and what binds it is known
     bool quiet = false;              ///< writes nothing on standard error
     bool progress = false;           ///< though it is quiet, shows the progress on a terminal
     int terminal = -1;               ///< of a user who is asked to go on; -1: none
@@ -105,6 +106,7 @@ private:
     bool quiet_;
     bool progress_alone_;
     bool enforce_;
+    bool measures_;
     const MachineDescription* description_;
     const PlanFigures* figures_;
     PathInput* input_;
@@ -122,6 +124,7 @@ private:
     LimitShare share_;
     ProgramSteps steps_;
     ProgramObserver program_;
+    BackgroundWork work_; // what is measured, where nobody else looks at it meanwhile
     PathWatch watch_;
     std::unique_ptr<PlannedPath> path_;
     PathFeeder& feeder_; // of the path

@@ -96,6 +96,7 @@ void Motion::require_end() {
     } else if (path_->activity() == Activity::held && path_->state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
+    work_.finish();
     optimum_.finish();
     require_tolerance();
 }

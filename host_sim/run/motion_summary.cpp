@@ -78,7 +78,7 @@ Summary Motion::summary() const {
     summary.program.left_out = input_->left_out();
     summary.program.dialect = input_->dialect_choice();
     summary.limit_share = share_.shares();
-    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
+    summary.planning_time_s = std::chrono::duration<double>(planning_).count();
     summary.memory_bytes = {path.curve_bytes, path.plan_bytes, path.stream_bytes};
     summary.stopped = !stopped_.empty();
     summary.events = operated_;

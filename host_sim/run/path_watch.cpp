@@ -19,17 +19,25 @@ void PathWatch::segment(const CurveSegment<double>& segment, std::uint32_t row, 
     if (observers_.error != nullptr) {
         observers_.error->segment(segment);
     }
-    if (observers_.deviation != nullptr) {
-        observers_.deviation->segment(segment);
-    }
     if (observers_.writer != nullptr) {
         observers_.writer->segment(segment);
     }
-    if (observers_.optimum != nullptr) {
-        observers_.optimum->segment(segment);
+    if (observers_.work != nullptr) {
+        observers_.work->add([this, segment] { measure(segment); });
+    } else {
+        measure(segment);
     }
     if (observers_.share != nullptr) {
         observers_.share->programmed(row, segment.block_feed_mm_s());
+    }
+}
+
+void PathWatch::measure(const CurveSegment<double>& segment) const {
+    if (observers_.deviation != nullptr) {
+        observers_.deviation->segment(segment);
+    }
+    if (observers_.optimum != nullptr) {
+        observers_.optimum->segment(segment);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "host_sim/analysis/optimum_time.hpp"
 #include "host_sim/analysis/path_deviation.hpp"
 #include "host_sim/analysis/waypoint_error.hpp"
+#include "host_sim/base/background_work.hpp"
 #include "host_sim/output/curve_writer.hpp"
 #include "host_sim/planning/curve_watch.hpp"
 #include "host_sim/planning/path_feeder.hpp"
@@ -20,6 +21,7 @@ struct PathObservers {
     WaypointError* error = nullptr;
     PathDeviation* deviation = nullptr;
     OptimumTime* optimum = nullptr;
+    BackgroundWork* work = nullptr; ///< does what `deviation` and `optimum` do; null: it is done at once
     LimitShare* share = nullptr;
 };
 
@@ -32,6 +34,8 @@ public:
     void segment(const CurveSegment<double>& segment, std::uint32_t row, const PathFeeder& feeder) override;
 
 private:
+    void measure(const CurveSegment<double>& segment) const;
+
     const std::string* file_;
     PathObservers observers_;
 };

@@ -17,12 +17,14 @@
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/output_table.hpp"
 #include "host_sim/run/path_watch.hpp"
+#include "host_sim/run/program_look.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/run/what_would_help.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -37,6 +39,16 @@ namespace {
 std::optional<std::uint64_t> look(PathInput& input, const PathObservers& observers) {
     PathWatch watch(input.name(), observers);
     return look_through(input, watch);
+}
+
+/// What can be found before anything moves. Returns the number of waypoints or moves, if it is known. In the simulated
+/// machine what only the path of a program says is found where it is planned.
+std::optional<std::uint64_t> look_before(PathInput& input, const PathLimits& limits, int axes, bool real) {
+    std::optional<std::uint64_t> rows;
+    if (input.repeatable() && !real && input.gcode() != nullptr) {
+        rows = look_at_moves(input, limits, axes);
+    }
+    return input.repeatable() && !rows ? look(input, {.limits = &limits}) : rows;
 }
 
 /// Input that is valid, but whose curve is hardly what was meant.
@@ -145,6 +157,7 @@ int run(const RunArguments& arguments) {
     if (arguments.target != "sim") {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
+    const auto begun = std::chrono::steady_clock::now();
     RunMachine of(arguments.machine, *arguments.path.format);
     MachineDescription& machine = of.machine;
     const ScalarKind scalar = arguments.path.scalar;
@@ -159,10 +172,8 @@ int run(const RunArguments& arguments) {
     }
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
-    std::optional<std::uint64_t> waypoints;
-    if (input.repeatable()) {
-        waypoints = look(input, {.limits = &path_limits});
-    }
+    const std::optional<std::uint64_t> waypoints =
+        look_before(input, path_limits, machine.settings.axes, signals.has_value());
     std::unique_ptr<RunTarget, DeleteInTime> target;
     std::unique_ptr<ProgramOutputs, DeleteInTime> program_outputs;
     std::optional<StateKeeper> state;
@@ -207,6 +218,9 @@ int run(const RunArguments& arguments) {
                                                    .waypoints = waypoints,
                                                    .quiet = arguments.motion.quiet},
                                                   summary);
+    }
+    if (!signals) {
+        summary.planning_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     }
     if (report) {
         report->write(report_facts(arguments, input, summary, stopped));

@@ -12,7 +12,8 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double raised = 1.1;
-constexpr double may_bind = 0.85; // of a limit: a plan that stays a little below it is bound by it
+constexpr std::uint64_t most_moves = 10'000; // of a program that are planned again
+constexpr double may_bind = 0.85;            // of a limit: a plan that stays a little below it is bound by it
 
 /// One limit, and the value of the machine that states it.
 struct Candidate {
@@ -74,9 +75,12 @@ public:
 };
 
 /// The motion alone, on a machine whose limits differ.
-double planned_s(const HelpArguments& arguments, const RunMachine& machine, double feed_factor) {
-    PathInput input(*arguments.path, PathUse::executed, machine.path());
+double planned_s(const HelpArguments& arguments, const RunMachine& machine, double feed_factor, std::uint64_t moves) {
+    PathArguments in_double = *arguments.path;
+    in_double.scalar = ScalarKind::float64; // the fastest one: the time is the same within a segment
+    PathInput input(in_double, PathUse::executed, machine.path());
     input.begin_at(*arguments.begins);
+    input.end_after(moves);
     Progress progress({.quiet = arguments.quiet, .all = arguments.waypoints});
     NoWatch nobody;
     const auto path = plan_path(input, machine.machine, nobody, arguments.window_cells);
@@ -109,9 +113,12 @@ double planned_s(const HelpArguments& arguments, const RunMachine& machine, doub
 
 } // namespace
 
-std::vector<RaisedLimit> what_would_help(const HelpArguments& arguments, const Summary& summary) {
+LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summary) {
     const RunMachine& of = *arguments.machine;
-    std::vector<RaisedLimit> out;
+    LimitAdvice out;
+    out.moves = arguments.path->format->is_gcode() && summary.waypoints > most_moves ? most_moves : 0;
+    const double moving_s = summary.cycle_time_s - arguments.standing_s;
+    const double part_s = out.moves > 0 ? planned_s(arguments, of, 1.0, out.moves) : moving_s;
     for (const Candidate& candidate : candidates(of.machine, summary)) {
         MachineDescription machine = of.as_stated();
         if (candidate.of_machine != nullptr) {
@@ -124,10 +131,12 @@ std::vector<RaisedLimit> what_would_help(const HelpArguments& arguments, const S
         }
         const RunMachine higher(std::move(machine), arguments.path->format->is_gcode());
         const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
-        const double seconds = planned_s(arguments, higher, factor) + arguments.standing_s;
-        out.push_back({candidate.name, seconds, 1.0 - seconds / summary.cycle_time_s});
+        const double share = planned_s(arguments, higher, factor, out.moves) / part_s; // of the rest as of the part
+        const double seconds = moving_s * share + arguments.standing_s;
+        out.limits.push_back({candidate.name, seconds, 1.0 - seconds / summary.cycle_time_s});
     }
-    std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    std::stable_sort(out.limits.begin(), out.limits.end(),
+                     [](const auto& a, const auto& b) { return a.gain > b.gain; });
     return out;
 }
 

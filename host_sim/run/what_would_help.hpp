@@ -19,9 +19,10 @@ struct HelpArguments {
     bool quiet = false;
 };
 
-/// Raises each limit that bound by a tenth, one at a time, and plans the program again. The largest gain first. Costs
-/// as much as so many plans; progress is shown. Throws InputError and UsageError.
+/// Raises each limit that bound by a tenth, one at a time, and plans the program again, in double. The largest gain
+/// first. Costs as much as so many plans; of a program in G-code its first 10,000 moves stand for all. Progress is
+/// shown. Throws InputError and UsageError.
 /// @pre the input can be read again, and the run was neither stopped nor steered
-[[nodiscard]] std::vector<RaisedLimit> what_would_help(const HelpArguments& arguments, const Summary& summary);
+[[nodiscard]] LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summary);
 
 } // namespace splinefeed::host

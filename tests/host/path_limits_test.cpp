@@ -38,6 +38,16 @@ TEST_CASE("What counts is how far the curve goes, not its control points") {
     CHECK_FALSE(limits.violation(parabola(1.0, 1000.0)));
 }
 
+TEST_CASE("A box is within with its margin, or not") {
+    MachineDescription machine = default_machine();
+    machine.travel[0] = Travel{-10.0, 50.0};
+    const PathLimits limits(machine);
+    CHECK(limits.contain({-10.0, -900.0, 0.0}, {50.0, 900.0, 0.0}, 0.0));
+    CHECK(limits.contain({-9.9, 0.0, 0.0}, {49.9, 0.0, 0.0}, 0.1));
+    CHECK_FALSE(limits.contain({-9.9, 0.0, 0.0}, {40.0, 0.0, 0.0}, 0.11));
+    CHECK_FALSE(limits.contain({0.0, 0.0, 0.0}, {50.001, 0.0, 0.0}, 0.0));
+}
+
 TEST_CASE("Without travel the counts are the limit") {
     MachineDescription machine = default_machine();
     machine.settings.axis[1].steps_per_mm = 1e6;

@@ -26,6 +26,19 @@ TEST_CASE("a motion within the limits is executed to the last count") {
     CHECK(machine.pulses(0) == static_cast<std::uint64_t>(machine.counts(0)));
 }
 
+TEST_CASE("a machine that measures nothing counts the time, and sees a broken chain") {
+    SimulatedMachine machine(machine_of({"x"}), 1, {.enforce = false, .measures = false});
+    Motion motion = there(80.0 * over * 2.0, 4000.0);
+    CHECK(run(machine, motion) == PortPhase::idle);
+    CHECK(machine.cycle_time_s() == static_cast<double>(motion.size()) * 0.001);
+    CHECK(machine.position_mm()[0] ==
+          static_cast<double>(motion.back().end[0]) / (1000.0 * static_cast<double>(units_per_count)));
+    CHECK(machine.use(0).velocity == 0.0);
+    SimulatedMachine other(machine_of({"x"}), 1, {.enforce = false, .measures = false});
+    motion[5].start[0] += 1;
+    CHECK(run(other, motion) == PortPhase::fault);
+}
+
 TEST_CASE("pulses count to and fro") {
     SimulatedMachine machine(machine_of({"x"}), 1);
     Motion motion = there(50.0, 500.0);

@@ -118,13 +118,17 @@ TEST_CASE("what would help is in both forms, the small gains in JSON only") {
     Summary summary = sample();
     CHECK(nlohmann::json::parse(to_json(summary))["what_would_help"].is_null());
     CHECK_FALSE(contains(to_text(summary), "what would help"));
-    summary.what_would_help = {{"jerk of x", 12.0, 0.028}, {"programmed feed", 12.34, 0.0001}};
+    summary.what_would_help = LimitAdvice{{{"jerk of x", 12.0, 0.028}, {"programmed feed", 12.34, 0.0001}}};
     const auto json = nlohmann::json::parse(to_json(summary))["what_would_help"];
     REQUIRE(json.size() == 2);
     CHECK(json[0] == nlohmann::json::parse(R"({"limit": "jerk of x", "cycle_time_s": 12.0, "gain": 0.028})"));
     CHECK(contains(to_text(summary), "\n  jerk of x                12.000000 s  2.8 % less\n"));
     CHECK_FALSE(contains(to_text(summary), "programmed feed"));
-    summary.what_would_help->clear();
+    CHECK_FALSE(nlohmann::json::parse(to_json(summary)).contains("what_would_help_moves"));
+    summary.what_would_help->moves = 20'000; // stand for all
+    CHECK(nlohmann::json::parse(to_json(summary))["what_would_help_moves"] == 20'000);
+    CHECK(contains(to_text(summary), "planned again for the first 20000 moves\n"));
+    summary.what_would_help->limits.clear();
     CHECK(contains(to_text(summary), "no limit alone"));
 }
 

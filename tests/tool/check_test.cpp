@@ -88,3 +88,40 @@ TEST_CASE("check knows M66: the time-outs of inputs that are low, and a number t
               "part.ngc:5: input_wait: the machine file has no input 4; name its line in [[input]] with number = "
               "4, or add the word to --ignore\n\n1 problem\n") == 0);
 }
+
+TEST_CASE("The advice of a long program is that of its first moves, and planning time is what one waits for") {
+    const Tool tool;
+    std::string program = "F600\n";
+    for (int i = 0; i < 10'001; ++i) {
+        program += i % 2 == 0 ? "G1 X0.1\n" : "G1 X0\n";
+    }
+    tool.write("long.ngc", program);
+    const json summary = json::parse(tool("plan long.ngc --summary json --scalar double").output);
+    CHECK(summary["what_would_help_moves"] == 10'000);
+    REQUIRE_FALSE(summary["what_would_help"].empty());
+    const json& first = summary["what_would_help"][0];
+    CHECK(first["gain"].get<double>() > 0.01);
+    CHECK(first["cycle_time_s"].get<double>() ==
+          Approx(summary["cycle_time_s"].get<double>() * (1.0 - first["gain"].get<double>())));
+    CHECK(summary["planning_time_s"].get<double>() > 0.0);
+    tool.write("short.ngc", "F600 G1 X10\n");
+    CHECK_FALSE(json::parse(tool("plan short.ngc --summary json").output).contains("what_would_help_moves"));
+}
+
+TEST_CASE("A path is planned without a look at it where its moves stay away from the ends of travel, and only there") {
+    const Tool tool;
+    tool.write("m.toml",
+               "[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+               "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n[[axis]]\nname = \"y\"\nmax_velocity_mm_s = 100\n"
+               "max_acceleration_mm_s2 = 1000\n");
+    for (const char* const x : {"10", "49.9999", "50"}) {
+        CAPTURE(x);
+        tool.write("part.ngc", std::string("F900 G1 X") + x + "\nY1\nX5\n");
+        CHECK(tool("plan part.ngc -m m.toml --quiet").status == 0);
+    }
+    tool.write("part.ngc", "F900 G1 X10\nY1\nX50.01\n");
+    const Call call = tool("plan part.ngc -m m.toml --quiet --trace t.csv");
+    CHECK(call.status == 2);
+    CHECK(call.error.find("part.ngc:3: ") == 0);
+    CHECK(call.error.find("axis x goes to 50.0") != std::string::npos);
+}

@@ -202,7 +202,8 @@ bool GcodeMoves::next(SourceStep& out) {
         return true;
     }
     if (!pending_) {
-        if (interpreter_.has_ended()) {
+        const bool enough = settings_->most_moves > 0 && history_.moves() >= settings_->most_moves;
+        if (interpreter_.has_ended() || enough) {
             return false;
         }
         switch (flow_.next(line_)) {
