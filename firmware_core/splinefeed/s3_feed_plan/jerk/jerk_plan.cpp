@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to standstill
-// at the end of the known path). A leg that ends at a stop is final; of a leg that ends with the window, the first half
-// is committed. The rest is planned again when more of the path is known. Its old plan is kept. If no new one is found
-// from the state at the end of the committed part, the old one is travelled to its end, which is a standstill.
-//
-// A straight leg is one move in closed form (s_curve_profile.cpp).
+// A straight leg is one move in closed form (s_curve_profile.cpp); other legs follow the plan of the window
+// (window_plan.cpp).
 #include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -29,7 +25,7 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
     : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage),
-      leg_(storage.scratch) {}
+      plan_(window_) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
@@ -41,7 +37,7 @@ Pull JerkPlan<S>::take(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     return source_.next(underrun, work, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
         const double most_sq = to_double(cap_sq);
         window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(exit_sq));
-        planned_all_ = false;
+        plan_.outdate();
     });
 }
 
@@ -53,137 +49,6 @@ Pull JerkPlan<S>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
         pull = take(underrun, work);
     }
     return pull;
-}
-
-// From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
-// plan; after them there may be one. Returns its end.
-template <Scalar S>
-std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
-    planned_ = end;
-    if (end - first >= LegPlan::fewest_cells) {
-        slow_legs_ += hops_ == 1 ? 1U : 0U;
-        planned_ = smaller(end, first + hops_);
-        hops_ = smaller(2 * hops_, window_.size());
-    }
-    for (std::size_t i = first; i < planned_; ++i) {
-        window_.node(i).travel = Travel::rest_to_rest;
-        window_.node(i + 1).b = 0.0;
-    }
-    return planned_;
-}
-
-// Begins to plan cells `first` to `end` as one motion to standstill there.
-template <Scalar S>
-void JerkPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
-    leg_first_ = first;
-    leg_end_ = end;
-    leg_.begin(window_.state(first));
-    for (std::size_t i = first; i < end; ++i) {
-        leg_.add(window_.limits_of(i), window_.node(i).cap_sq, window_.node(i + 1).at_most_sq);
-        if (i < planned_ && window_.node(first).b > 0.0) {
-            leg_.know(window_.node(i).middle_sq);
-        }
-    }
-    leg_.search();
-    searching_ = true;
-}
-
-// `none`: the plan is as before.
-template <Scalar S>
-Search JerkPlan<S>::search_leg(WorkBudget& work) noexcept {
-    Search search = Search::running;
-    while (search == Search::running) {
-        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
-            return Search::running;
-        }
-        search = leg_.step();
-    }
-    searching_ = false;
-    if (search == Search::none) {
-        ++slow_legs_;
-        if (window_.node(leg_first_).b > 0.0 || !leg_.slow()) {
-            return Search::none;
-        }
-    }
-    for (std::size_t i = leg_first_; i < leg_end_; ++i) {
-        JerkNode& node = window_.node(i);
-        node.b = leg_.node(i - leg_first_).b;
-        node.middle_sq = leg_.node(i - leg_first_).middle_sq;
-        node.travel = Travel::curve;
-    }
-    window_.node(leg_end_).b = 0.0;
-    return Search::found;
-}
-
-// How much of a leg that ends with the window is final: to about the middle, where it brakes least.
-template <Scalar S>
-std::size_t JerkPlan<S>::final_cells(std::size_t cells) const noexcept {
-    const auto part = [cells](unsigned per_cent) {
-        return larger<std::size_t>(1, cells * per_cent / 100U);
-    };
-    std::size_t best = part(50);
-    auto least = largest<double>();
-    for (std::size_t i = part(60); i >= part(35); --i) {
-        const SpeedState state = window_.state(i);
-        const double braking = -state.slope / square_root(state.b);
-        if (braking < least) {
-            least = braking;
-            best = i;
-        }
-        if (!(braking > 0.0)) {
-            break;
-        }
-    }
-    return smaller(best, cells - 3);
-}
-
-// Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
-template <Scalar S>
-bool JerkPlan<S>::plan(WorkBudget& work) noexcept {
-    const std::size_t half = (window_.size() + 1) / 2;
-    planned_all_ = true;
-    while (at_ < window_.size() && (at_ == 0 || at_ < half)) {
-        std::size_t end = at_ + 1;
-        while (end < window_.size() && !window_.cell(end - 1).stop_at_end) {
-            ++end;
-        }
-        const bool stops = window_.cell(end - 1).stop_at_end || (ended_ && end == window_.size());
-        if (!stops && at_ > 0) {
-            break;
-        }
-        const bool rests = !(window_.node(at_).b > 0.0);
-        if (!searching_ && stops && rests && StraightLeg<S>::is_straight(window_, at_, end)) {
-            for (std::size_t i = at_; i < end; ++i) {
-                window_.node(i).travel = Travel::line;
-            }
-            window_.node(end).b = 0.0;
-            at_ = planned_ = end;
-            hops_ = 1;
-            continue;
-        }
-        if (!searching_ && end - at_ >= LegPlan::fewest_cells) {
-            begin_leg(at_, end);
-        }
-        const Search search = searching_ ? search_leg(work) : Search::none;
-        if (search == Search::running) {
-            return false;
-        }
-        if (search == Search::found) {
-            planned_ = end;
-            at_ = stops ? end : final_cells(end);
-            hops_ = 1;
-        } else if (rests) {
-            at_ = rest_to_rest(at_, end);
-        } else { // the old plan goes on, and from a little farther there may be another
-            SPLINEFEED_ASSERT(at_ == 0 && planned_ > 0);
-            at_ = larger<std::size_t>(1, planned_ / 8);
-            planned_all_ = false;
-            break;
-        }
-    }
-    committed_ = at_;
-    planning_ = false;
-    return true;
 }
 
 // The next profile segment of a straight move, as far as it lies in the front cell.
@@ -264,20 +129,19 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
         return false;
     }
     line_ = LineTravel(leg.move());
-    planned_ = committed_ = leg.cells();
-    window_.node(planned_).b = 0.0; // an earlier plan may have been moving at its end inside the leg
+    plan_.take(leg.cells(), leg.cells());
+    window_.node(leg.cells()).b = 0.0; // an earlier plan may have been moving at its end inside the leg
     return true;
 }
 
 template <Scalar S>
 bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
-    JerkChange<S> change(window_, *limits_, from, state, planned_);
+    JerkChange<S> change(window_, *limits_, from, state, plan_.planned());
     if (!(steering_.stops() ? change.to_rest() : change.to_wanted())) {
         return false;
     }
-    planned_ = change.planned();
-    committed_ = change.changed();
-    planned_all_ = false;
+    plan_.take(change.planned(), change.changed());
+    plan_.outdate();
     return true;
 }
 
@@ -302,7 +166,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
         if (halt_ > 0) {
             window_.cell(halt_ - 1).stop_at_end = true;
         }
-        committed_ = stops ? planned_ : committed_;
+        plan_.commit(stops ? plan_.planned() : plan_.committed());
         return false;
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
@@ -310,10 +174,10 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).length_mm);
     halt_ = 0;
     if (stops) {
-        committed_ = planned_;
-        if (!window_.cell(planned_ - 1).stop_at_end) {
-            halt_ = planned_;
-            Cell<S>& last = window_.cell(planned_ - 1);
+        plan_.commit(plan_.planned());
+        if (!window_.cell(plan_.planned() - 1).stop_at_end) {
+            halt_ = plan_.planned();
+            Cell<S>& last = window_.cell(halt_ - 1);
             last.stop_at_end = true;
             last.position_at(from_integer<S>(1), last.end);
         }
@@ -338,7 +202,7 @@ bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
 // Called before a profile segment is chosen.
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
-    planning_ = searching_ = false;
+    plan_.cancel();
     if (standing()) {
         unanswered_ = false;
         want();
@@ -346,8 +210,8 @@ void JerkPlan<S>::follow_steering() noexcept {
             JerkNode& node = window_.node(i);
             node.cap_sq = node.wanted_sq;
         }
-        committed_ = planned_ = 0;
-        planned_all_ = false;
+        plan_.take(0, 0);
+        plan_.outdate();
     } else if (line_.done()) {
         const SpeedState state = window_.state(0); // the node moves
         static_cast<void>(answer(0.0, state));
@@ -370,29 +234,27 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
         const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.pending() || (unanswered_ && !planning_)) {
+    if (steering_.pending() || (unanswered_ && !plan_.running())) {
         follow_steering();
     }
-    if (committed_ == 0 && steering_.stops()) {
-        committed_ = planned_;
+    if (plan_.committed() == 0 && steering_.stops()) {
+        plan_.commit(plan_.planned());
     }
-    if (committed_ == 0 && !planning_) {
+    if (plan_.committed() == 0 && !plan_.running()) {
         const Pull pull = fill(underrun, work);
         if (window_.size() == 0 || pull == Pull::busy || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
         }
-        if (planned_all_ && planned_ > 0) {
+        if (plan_.complete() && plan_.planned() > 0) {
             // Later cells change the rest of the plan, except for a move that is planned as a whole.
             const bool in_part =
                 pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
-            committed_ = in_part ? 1 : planned_;
+            plan_.commit(in_part ? 1 : plan_.planned());
         } else {
-            planning_ = true;
-            ended_ = pull == Pull::finished;
-            at_ = 0;
+            plan_.begin(pull == Pull::finished);
         }
     }
-    if (planning_ && !plan(work)) {
+    if (plan_.running() && !plan_.run(work)) {
         return Pull::busy;
     }
     forward_step();
@@ -411,8 +273,7 @@ void JerkPlan<S>::advance() noexcept {
     profile_segment_.stretch.from = S{};
     on_line_mm_ = 0.0;
     window_.pop();
-    --committed_;
-    --planned_;
+    plan_.pop();
     halt_ -= halt_ > 0 ? 1U : 0U;
 }
 
@@ -431,11 +292,11 @@ void JerkPlan<S>::clear() noexcept {
     SPLINEFEED_ASSERT(standing());
     source_.forget();
     window_.clear();
-    committed_ = planned_ = halt_ = 0;
-    hops_ = 1;
+    plan_.clear();
+    halt_ = 0;
     on_line_mm_ = 0.0;
     profile_segment_ = {};
-    planned_all_ = unanswered_ = planning_ = searching_ = false;
+    unanswered_ = false;
     steering_.start();
 }
 

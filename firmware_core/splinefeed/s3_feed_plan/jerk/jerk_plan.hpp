@@ -13,6 +13,7 @@
 #include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 #include "splinefeed/s3_feed_plan/jerk/profile_state.hpp"
 #include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/window_plan.hpp"
 
 namespace splinefeed {
 
@@ -38,7 +39,7 @@ public:
 
     /// How often a leg could not be planned as fast as possible. Such a leg is travelled more slowly, within all
     /// limits.
-    [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
+    [[nodiscard]] std::uint64_t slow_legs() const noexcept { return plan_.slow_legs(); }
 
 private:
     using MotionPlan<S>::profile_segment_;
@@ -52,36 +53,19 @@ private:
     bool change_line(double from, const SpeedState& state) noexcept;
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
-    bool plan(WorkBudget& work) noexcept;
-    void begin_leg(std::size_t first, std::size_t end) noexcept;
-    Search search_leg(WorkBudget& work) noexcept;
-    [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
-    std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 
     GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
-    LegPlan leg_;               // that is planned now
-    std::size_t leg_first_ = 0; // its cells
-    std::size_t leg_end_ = 0;
-    std::size_t at_ = 0; // so many cells are planned anew
-    bool planning_ = false;
-    bool searching_ = false;    // in leg_
-    bool ended_ = false;        // no cell comes behind the window
-    LineTravel line_{};         // used while a straight leg is travelled
-    MoveLimits line_limits_{};  // limits of that leg
-    std::size_t committed_ = 0; // cells from the front on
-    std::size_t planned_ = 0;   // cells from the front on that have a plan, which ends at standstill
-    std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none
-    std::size_t hops_ = 1;      // cells that are passed from standstill to standstill if no plan is found; doubled each
-                                // time
-    std::uint64_t slow_legs_ = 0;
-    double on_line_mm_ = 0.0; // part of the cell that is already travelled
+    WindowPlan<S> plan_;
+    LineTravel line_{};        // used while a straight leg is travelled
+    MoveLimits line_limits_{}; // limits of that leg
+    std::size_t halt_ = 0;     // cells from the front on to the stop that a hold made; 0: none
+    double on_line_mm_ = 0.0;  // part of the cell that is already travelled
     bool chosen_ = false;
-    bool planned_all_ = false; // no cell came in since the last plan
-    bool unanswered_ = false;  // no motion was found yet for the latest change of the steering
+    bool unanswered_ = false; // no motion was found yet for the latest change of the steering
 };
 
 } // namespace splinefeed

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+//
+// A leg that ends at a stop is final; of a leg that ends with the window, about the first half is committed. The rest
+// is planned again when more of the path is known. Its old plan is kept. If no new one is found from the state at the
+// end of the committed part, the old one goes on: it ends at standstill.
+#include "splinefeed/s3_feed_plan/jerk/window_plan.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
+
+namespace splinefeed {
+
+// From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
+// plan; after them there may be one. Returns its end.
+template <Scalar S>
+std::size_t WindowPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
+    planned_ = end;
+    if (end - first >= LegPlan::fewest_cells) {
+        slow_legs_ += hops_ == 1 ? 1U : 0U;
+        planned_ = smaller(end, first + hops_);
+        hops_ = smaller(2 * hops_, window_->size());
+    }
+    for (std::size_t i = first; i < planned_; ++i) {
+        window_->node(i).travel = Travel::rest_to_rest;
+        window_->node(i + 1).b = 0.0;
+    }
+    return planned_;
+}
+
+// Begins to plan cells `first` to `end` as one motion to standstill there.
+template <Scalar S>
+void WindowPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
+    leg_first_ = first;
+    leg_end_ = end;
+    leg_.begin(window_->state(first));
+    for (std::size_t i = first; i < end; ++i) {
+        leg_.add(window_->limits_of(i), window_->node(i).cap_sq, window_->node(i + 1).at_most_sq);
+        if (i < planned_ && window_->node(first).b > 0.0) {
+            leg_.know(window_->node(i).middle_sq);
+        }
+    }
+    leg_.search();
+    searching_ = true;
+}
+
+// `none`: the plan is as before.
+template <Scalar S>
+Search WindowPlan<S>::search_leg(WorkBudget& work) noexcept {
+    Search search = Search::running;
+    while (search == Search::running) {
+        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+            return Search::running;
+        }
+        search = leg_.step();
+    }
+    searching_ = false;
+    if (search == Search::none) {
+        ++slow_legs_;
+        if (window_->node(leg_first_).b > 0.0 || !leg_.slow()) {
+            return Search::none;
+        }
+    }
+    for (std::size_t i = leg_first_; i < leg_end_; ++i) {
+        JerkNode& node = window_->node(i);
+        node.b = leg_.node(i - leg_first_).b;
+        node.middle_sq = leg_.node(i - leg_first_).middle_sq;
+        node.travel = Travel::curve;
+    }
+    window_->node(leg_end_).b = 0.0;
+    return Search::found;
+}
+
+// How much of a leg that ends with the window is final: to about the middle, where it brakes least.
+template <Scalar S>
+std::size_t WindowPlan<S>::final_cells(std::size_t cells) const noexcept {
+    const auto part = [cells](unsigned per_cent) {
+        return larger<std::size_t>(1, cells * per_cent / 100U);
+    };
+    std::size_t best = part(50);
+    auto least = largest<double>();
+    for (std::size_t i = part(60); i >= part(35); --i) {
+        const SpeedState state = window_->state(i);
+        const double braking = -state.slope / square_root(state.b);
+        if (braking < least) {
+            least = braking;
+            best = i;
+        }
+        if (!(braking > 0.0)) {
+            break;
+        }
+    }
+    return smaller(best, cells - 3);
+}
+
+// Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
+template <Scalar S>
+bool WindowPlan<S>::run(WorkBudget& work) noexcept {
+    const std::size_t half = (window_->size() + 1) / 2;
+    complete_ = true;
+    while (at_ < window_->size() && (at_ == 0 || at_ < half)) {
+        std::size_t end = at_ + 1;
+        while (end < window_->size() && !window_->cell(end - 1).stop_at_end) {
+            ++end;
+        }
+        const bool stops = window_->cell(end - 1).stop_at_end || (ended_ && end == window_->size());
+        if (!stops && at_ > 0) {
+            break;
+        }
+        const bool rests = !(window_->node(at_).b > 0.0);
+        if (!searching_ && stops && rests && StraightLeg<S>::is_straight(*window_, at_, end)) {
+            for (std::size_t i = at_; i < end; ++i) {
+                window_->node(i).travel = Travel::line;
+            }
+            window_->node(end).b = 0.0;
+            at_ = planned_ = end;
+            hops_ = 1;
+            continue;
+        }
+        if (!searching_ && end - at_ >= LegPlan::fewest_cells) {
+            begin_leg(at_, end);
+        }
+        const Search search = searching_ ? search_leg(work) : Search::none;
+        if (search == Search::running) {
+            return false;
+        }
+        if (search == Search::found) {
+            planned_ = end;
+            at_ = stops ? end : final_cells(end);
+            hops_ = 1;
+        } else if (rests) {
+            at_ = rest_to_rest(at_, end);
+        } else { // the old plan goes on, and from a little farther there may be another
+            SPLINEFEED_ASSERT(at_ == 0 && planned_ > 0);
+            at_ = larger<std::size_t>(1, planned_ / 8);
+            complete_ = false;
+            break;
+        }
+    }
+    committed_ = at_;
+    running_ = false;
+    return true;
+}
+
+template class WindowPlan<double>;
+template class WindowPlan<float>;
+template class WindowPlan<Fixed>;
+
+} // namespace splinefeed

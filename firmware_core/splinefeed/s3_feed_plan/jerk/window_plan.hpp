@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// WindowPlan: plans the cells of a JerkWindow leg by leg, from a stop (or from where the machine will be) to the next
+// stop (or to standstill at the end of the known path).
+//
+//      committed: final          planned: ends at standstill
+//      |---------|---------------------------|
+//      o---o---o---o---o---o---o---o---o---o---o---o   cells of the window
+#pragma once
+
+#include "splinefeed/base/work_budget.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+class WindowPlan {
+public:
+    explicit WindowPlan(JerkWindow<S>& window) noexcept : window_(&window), leg_(window.leg()) {}
+
+    /// Cells from the front on that are final.
+    [[nodiscard]] std::size_t committed() const noexcept { return committed_; }
+    /// Cells from the front on that have a plan, which ends at standstill.
+    [[nodiscard]] std::size_t planned() const noexcept { return planned_; }
+    /// Whether no cell came in since the last plan.
+    [[nodiscard]] bool complete() const noexcept { return complete_; }
+    void outdate() noexcept { complete_ = false; }
+    /// @pre cells <= planned()
+    void commit(std::size_t cells) noexcept { committed_ = cells; }
+    /// A plan that was made elsewhere. It ends what runs.
+    void take(std::size_t planned, std::size_t committed) noexcept {
+        planned_ = planned;
+        committed_ = committed;
+        running_ = searching_ = false;
+    }
+    /// The front cell is travelled.
+    void pop() noexcept {
+        --committed_;
+        --planned_;
+    }
+    /// Forgets everything.
+    void clear() noexcept {
+        take(0, 0);
+        hops_ = 1;
+        complete_ = false;
+    }
+
+    /// Begins to plan anew. @param ended  no cell comes behind the window
+    void begin(bool ended) noexcept {
+        running_ = true;
+        ended_ = ended;
+        at_ = 0;
+    }
+    [[nodiscard]] bool running() const noexcept { return running_; }
+    /// Ends what runs, without a new plan.
+    void cancel() noexcept { running_ = searching_ = false; }
+    /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
+    /// spent; call again. Cost: a step of a search is as many steps of the budget as the leg has cells.
+    bool run(WorkBudget& work) noexcept;
+
+    /// How often a leg could not be planned as fast as possible.
+    [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
+
+private:
+    void begin_leg(std::size_t first, std::size_t end) noexcept;
+    Search search_leg(WorkBudget& work) noexcept;
+    [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
+    std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
+
+    JerkWindow<S>* window_;
+    LegPlan leg_;               // that is planned now
+    std::size_t leg_first_ = 0; // its cells
+    std::size_t leg_end_ = 0;
+    std::size_t at_ = 0; // so many cells are planned anew
+    std::size_t committed_ = 0;
+    std::size_t planned_ = 0;
+    std::size_t hops_ = 1; // cells that are passed from standstill to standstill if no plan is found; doubled each time
+    std::uint64_t slow_legs_ = 0;
+    bool running_ = false;
+    bool searching_ = false; // in leg_
+    bool ended_ = false;
+    bool complete_ = false;
+};
+
+} // namespace splinefeed
