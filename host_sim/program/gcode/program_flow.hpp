@@ -41,9 +41,9 @@ public:
     /// @param problems  gets what is wrong with O words, and the program goes on as if they were not there, so that the
     ///                  other lines are read, too; null: the first problem ends it
     ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
-                ParameterMemory& parameters, ProblemList* problems = nullptr, const FlowRules& rules = {})
+                ParameterMemory& parameters, ProblemList* problems = nullptr, FlowRules rules = {})
         : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters),
-          problems_(problems), rules_(rules) {}
+          problems_(problems), rules_(std::move(rules)) {}
 
     /// Throws InputError where problems are not collected, or the input cannot be read. May wait for the input.
     Step next(SourceLine& out);

@@ -132,7 +132,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
             fail(ahead_[i], 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
         }
         called_.emplace_back(i, end);
-        const std::shared_ptr<const FlowBlock> block = block_ahead(i, end);
+        std::shared_ptr<const FlowBlock> block = block_ahead(i, end);
         if (block == nullptr) {
             lost_.insert(label);
             return nullptr;

@@ -102,7 +102,7 @@ public:
     void clear() noexcept;
 
 private:
-    [[nodiscard]] bool bend_jumps(std::size_t cell) const noexcept;
+    [[nodiscard]] bool bend_jumps(std::size_t i) const noexcept;
 
     const MotionLimits<S>* limits_;
     JerkStorage<S> storage_;

@@ -36,14 +36,14 @@ template <Floating R>
 struct Envelope {
     std::span<LegNode<R>> node;
 
-    R& place(std::size_t i) const noexcept { return node[i].step_sq; }
-    R& bound(std::size_t i) const noexcept { return node[i].excess; } // g
-    R& wave(std::size_t i) const noexcept { return node[i].gain[0]; } // W
-    R& wave_slope(std::size_t i) const noexcept { return node[i].gain[1]; }
-    R& below(std::size_t i) const noexcept { return node[i].gain[2]; } // f
-    std::size_t& corner(std::size_t i) const noexcept { return node[i].corner; }
-    R hull(std::size_t i) const noexcept { return below(i) + wave(i); }
-    R line(std::size_t y) const noexcept { return bound(y) - wave(y) + wave_slope(y) * place(y); }
+    [[nodiscard]] R& place(std::size_t i) const noexcept { return node[i].step_sq; }
+    [[nodiscard]] R& bound(std::size_t i) const noexcept { return node[i].excess; } // g
+    [[nodiscard]] R& wave(std::size_t i) const noexcept { return node[i].gain[0]; } // W
+    [[nodiscard]] R& wave_slope(std::size_t i) const noexcept { return node[i].gain[1]; }
+    [[nodiscard]] R& below(std::size_t i) const noexcept { return node[i].gain[2]; } // f
+    [[nodiscard]] std::size_t& corner(std::size_t i) const noexcept { return node[i].corner; }
+    [[nodiscard]] R hull(std::size_t i) const noexcept { return below(i) + wave(i); }
+    [[nodiscard]] R line(std::size_t y) const noexcept { return bound(y) - wave(y) + wave_slope(y) * place(y); }
 };
 
 template <Floating R>

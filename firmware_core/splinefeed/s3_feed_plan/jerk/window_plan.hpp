@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// WindowPlan: plans the cells of a JerkWindow leg by leg, from a stop (or from where the machine will be) to the next
-// stop (or to standstill at the end of the known path).
+// WindowPlan: plans the cells of a JerkWindow leg by leg. A leg goes from a stop, or from where the machine will be, to
+// the next stop, or to standstill at the end of the known path.
 //
 //      committed: final          planned: ends at standstill
 //      |---------|---------------------------|

@@ -115,6 +115,24 @@ constexpr double acceleration_noise(double error_mm, double segment_s) noexcept 
 /// The part of a jerk limit that planning leaves for jumps of the curvature.
 inline constexpr double jerk_reserve = 5e-4;
 
+/// The smallest jerk limit that binds; 0: none does.
+constexpr double smallest_binding_jerk(const MachineSettings& settings, double segment_s) noexcept {
+    double smallest = 0.0;
+    for (const unsigned k : indices(settings.axes)) {
+        const double jerk = settings.axis[k].max_jerk_mm_s3;
+        const bool binds = jerk > 0.0 && jerk < sampled_jerk(settings.axis[k], segment_s);
+        smallest = binds && !(smallest > 0.0 && smallest < jerk) ? jerk : smallest;
+    }
+    return smallest;
+}
+
+/// The time in which the axis reaches its acceleration. The axis with the smallest limit of all, `softest`, limits the
+/// others to about twice its own.
+constexpr double rise_s(const AxisSettings& axis, double softest) noexcept {
+    const double own = axis.smaller_acceleration_mm_s2();
+    return (own < 2.0 * softest ? own : 2.0 * softest) / axis.max_jerk_mm_s3;
+}
+
 /// Rounding of a position by e becomes the jerk 8 e / T^3 in the third difference.
 constexpr double jerk_noise(double error_mm, double segment_s) noexcept {
     return 8.0 * error_mm / (segment_s * segment_s * segment_s);
@@ -286,13 +304,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     const int n = settings.segments_per_sample > 0 ? settings.segments_per_sample
                                                    : detail::segments_per_sample(period_s, totals.acceleration_sq);
     const double segment_s = period_s / n;
-    double smoothest = 0.0; // smallest jerk limit that binds
-    for (const unsigned k : indices(settings.axes)) {
-        if (const double jerk = settings.axis[k].max_jerk_mm_s3;
-            jerk > 0.0 && jerk < detail::sampled_jerk(settings.axis[k], segment_s)) {
-            smoothest = smoothest > 0.0 && smoothest < jerk ? smoothest : jerk;
-        }
-    }
+    const double smoothest = detail::smallest_binding_jerk(settings, segment_s);
     limits.jerk_limited = smoothest > 0.0;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
@@ -343,13 +355,8 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         if (limits.jerk_limited && jerk_noise > 0.25 * jerk) {
             return LimitError::period_too_short;
         }
-        if (binds) {
-            // The axis with the smallest acceleration limits the others to about this value.
-            const double acceleration =
-                axis.smaller_acceleration_mm_s2() < 2.0 * softest ? axis.smaller_acceleration_mm_s2() : 2.0 * softest;
-            const double rise = acceleration / jerk;
-            rise_s = rise > rise_s ? rise : rise_s;
-        }
+        const double rise = binds ? detail::rise_s(axis, softest) : 0.0;
+        rise_s = rise > rise_s ? rise : rise_s;
         limits.jerk_mm_s3[k] = from_double<S>(jerk * (usable - detail::jerk_reserve) - jerk_noise);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
