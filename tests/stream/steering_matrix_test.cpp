@@ -365,7 +365,7 @@ void run_rounds(PlanKind planner, int rounds, std::uint64_t first, std::initiali
     CHECK(10 * tally.judged >= 8 * rounds);
     CHECK(2 * tally.stopped >= rounds);
     CHECK(16 * tally.starved >= rounds);
-    CHECK(6 * tally.restarted >= rounds);
+    CHECK(8 * tally.restarted >= rounds);
     for (const int number : found) {
         one(number);
     }

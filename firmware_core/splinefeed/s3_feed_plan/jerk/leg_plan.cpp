@@ -9,9 +9,9 @@
 #include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
 
 #include "splinefeed/number/scalar.hpp"
-
 #include "splinefeed/s3_feed_plan/jerk/cell_use.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
+
 #include <iterator>
 
 namespace splinefeed {
@@ -104,7 +104,7 @@ LegPlan::Proof LegPlan::prove(R from, bool tighten) noexcept {
         const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
         proof.most = larger(proof.most, larger(use.acceleration, use.jerk));
         const auto less = [&](R& share, R used) {
-            if (used > from) {
+            if (!(used <= from)) {
                 proof.kept = false;
                 share = tighten ? share / (1.0 + per_excess * (smaller(used, most_use) - 1.0) + at_least) : share;
             }
