@@ -10,6 +10,7 @@ import argparse
 import csv
 import json
 import math
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -64,7 +65,7 @@ def seconds(tool, program, plan, folder, *options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", default="build/release/bin/splinefeed")
+    parser.add_argument("--tool", type=os.path.abspath, default="build/release/bin/splinefeed")
     tool = parser.parse_args().tool
     print("| path | plan | stops [s] | " + " | ".join(f"within {t} mm [s]" for t in TOLERANCES_MM) + " |")
     print("|---|---|" + "---|" * (1 + len(TOLERANCES_MM)))

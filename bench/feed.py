@@ -6,6 +6,7 @@ that tests/judge finds for the same curve and limits (needs python3-numpy, pytho
 import argparse
 import json
 import math
+import os
 import pathlib
 import random
 import subprocess
@@ -121,7 +122,7 @@ def print_ratios(ratios, count):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--tool", default="build/release/bin/splinefeed")
+    parser.add_argument("--tool", type=os.path.abspath, default="build/release/bin/splinefeed")
     parser.add_argument("--curve", help="a curve .json in two dimensions")
     parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
     parser.add_argument("--uneven", type=int, default=0, metavar="COUNT", help="so many splines through points 0.02 to 20 mm apart")

@@ -12,6 +12,7 @@ Options that are not known are passed on to the tool. Python's standard library 
 """
 import argparse
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -65,7 +66,7 @@ class Sweep:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="waypoints or a curve")
-    parser.add_argument("--tool", default="build/release/bin/splinefeed")
+    parser.add_argument("--tool", type=os.path.abspath, default="build/release/bin/splinefeed")
     parser.add_argument("--axes", default="xyz")
     parser.add_argument("--feed", type=float, default=100)
     parser.add_argument("--acceleration", type=float, default=1000)

@@ -22,7 +22,7 @@ double arc_length(const PathStrand& strand, int axes, double& least_radius) {
     const PerAxis<double> from = strand.at(0.0);
     const PerAxis<double> to = strand.at(1.0);
     double others_sq = 0.0;
-    for (unsigned k = 3; k < static_cast<unsigned>(axes); ++k) {
+    for (unsigned k = 3; k < static_cast<unsigned>(std::min(axes, max_axes)); ++k) { // a build may have three
         others_sq += (to[k] - from[k]) * (to[k] - from[k]);
     }
     least_radius = strand.arc()->least_radius(others_sq);
