@@ -26,7 +26,7 @@ struct Leg {
         LegPlan plan(nodes);
         plan.begin(start);
         for (std::size_t i = first; i < cells.size(); ++i) {
-            plan.add(cells[i], cells[i].cap_sq, at_most_sq[i]);
+            plan.add(cells[i], at_most_sq[i]);
         }
         return plan;
     }
@@ -124,7 +124,7 @@ TEST_CASE("legs along curves keep every limit, from rest and in motion", "[feed_
         LegPlan rest(leg.nodes);
         rest.begin(start);
         for (std::size_t i = first; i < leg.cells.size(); ++i) {
-            rest.add(leg.cells[i], leg.cells[i].cap_sq, leg.at_most_sq[i]);
+            rest.add(leg.cells[i], leg.at_most_sq[i]);
             rest.know(known[i - first]);
         }
         if (!rest.fastest()) {

@@ -127,9 +127,9 @@ TEST_CASE("Dwells, pauses and events stand where the program has them, and dwell
     const double straight = seconds(tool, with(""));
     const double stopped = seconds(tool, with("M0\n"));
     CHECK(stopped > straight + 0.04);
-    CHECK(std::abs(seconds(tool, with("G4 P0.25\n")) - stopped - 0.25) < 1e-9);
-    CHECK(std::abs(seconds(tool, with("M1\n")) - straight) < 1e-9);
-    CHECK(std::abs(seconds(tool, with("M1\n"), "--optional-stop") - stopped) < 1e-9);
+    CHECK(seconds(tool, with("G4 P0.25\n")) == Approx(stopped + 0.25).margin(1e-9));
+    CHECK(seconds(tool, with("M1\n")) == Approx(straight).margin(1e-9));
+    CHECK(seconds(tool, with("M1\n"), "--optional-stop") == Approx(stopped).margin(1e-9));
     CHECK(std::abs(seconds(tool, with("/G4 P1\n"), "--block-delete") - straight) < 1e-9);
     CHECK(std::abs(seconds(tool, "G4 P0.5\n" + with("")) - straight - 0.5) < 1e-9);
 

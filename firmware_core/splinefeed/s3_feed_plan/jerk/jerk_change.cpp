@@ -80,19 +80,6 @@ SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const n
     return {from.b + (from.slope + 0.5 * u * s) * s, from.slope + u * s};
 }
 
-// v^2 at a distance from standstill with these limits; at most the speed from which it brakes.
-template <Scalar S>
-double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
-    const double a = along_.acceleration_mm_s2;
-    const double j = along_.jerk_mm_s3;
-    const double last = a * a * a / (6.0 * j * j); // while the acceleration falls to zero
-    if (distance_mm < last) {
-        const double third = power_two_thirds(6.0 * distance_mm / j);
-        return smaller(peak_sq_, 0.25 * j * j * third * third);
-    }
-    return smaller(peak_sq_, 0.25 * a * a * a * a / (j * j) + 2.0 * a * (distance_mm - last));
-}
-
 // Pieces are graded towards a standstill and away from it; after the finely split part up to the first long cells.
 template <Scalar S>
 double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
@@ -188,7 +175,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
         const bool before = at_mm < cuts.change_mm - least;
         const double cap = before ? whole.cap_sq : whole.wanted_sq;
         const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        leg.add(jerk_cell_of(part, *limits_, cap), cap,
+        leg.add(jerk_cell_of(part, *limits_, cap),
                 whole.at_most_sq + to * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
         known = known && knows(i);
         if (known) {
@@ -295,7 +282,6 @@ bool JerkChange<S>::to_rest() noexcept {
     const double v = square_root(state_.b);
     const double a = 0.5 * larger(state_.slope, 0.0);
     const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
-    peak_sq_ = peak * peak;
     const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S>::shortest_mm);
     const auto cuts_at = [&](double end_mm, double behind) {
         const double longest = guess / pieces;

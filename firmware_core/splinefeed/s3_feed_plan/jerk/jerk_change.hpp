@@ -62,7 +62,6 @@ private:
     bool take(Cuts cuts) noexcept;
     [[nodiscard]] bool knows(std::size_t cell) const noexcept;
     [[nodiscard]] SpeedState known_state(std::size_t cell, double fraction) const noexcept;
-    [[nodiscard]] double braking_sq(double distance_mm) const noexcept;
     [[nodiscard]] double ramp_mm(double from_mm_s, double to_mm_s) const noexcept;
 
     JerkWindow<S>* window_;
@@ -72,7 +71,6 @@ private:
     std::size_t old_planned_;
     MoveLimits along_;        // of the front cell
     double start_mm_ = 1e9;   // distance since a start with constant jerk
-    double peak_sq_ = 0.0;    // largest b on the way to standstill
     double known_mm_ = 0.0;   // distance to the next stop, or to the end of the window
     double seconds_ = 0.0;    // duration of the last attempt that succeeded
     std::size_t pieces_ = 0;  // pieces of the cuts that fit

@@ -46,7 +46,8 @@ void LegPlan::begin(const SpeedState& start) noexcept {
     node.slope = rests_ ? 0.0 : start.slope;
 }
 
-void LegPlan::add(const JerkCell& cell, R cap_sq, R at_most_sq) noexcept {
+void LegPlan::add(const JerkCell& cell, R at_most_sq) noexcept {
+    const R cap_sq = cell.cap_sq;
     LegNode<R>& node = nodes_[cells_];
     LegNode<R>& next = nodes_[cells_ + 1];
     const bool first = cells_ == 0;

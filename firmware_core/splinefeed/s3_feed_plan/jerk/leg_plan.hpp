@@ -21,7 +21,7 @@ public:
     void begin(const SpeedState& start) noexcept;
     /// Appends a cell. @pre fewer cells than nodes
     /// @param at_most_sq  an upper bound of b at its end, about: that of an acceleration-limited plan; 0: not known
-    void add(const JerkCell& cell, R cap_sq, R at_most_sq) noexcept;
+    void add(const JerkCell& cell, R at_most_sq) noexcept;
     /// The middle of the last cell in a plan that is possible. @pre all cells before it are known
     void know(R middle_sq) noexcept;
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }

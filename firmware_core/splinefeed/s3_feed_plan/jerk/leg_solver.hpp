@@ -44,7 +44,7 @@ public:
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
     [[nodiscard]] bool rests() const noexcept { return first_ == 1; }
 
-    /// Before the first solve(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
+    /// Before the first begin(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
     /// begins at standstill) and of the last one.
     void join(R first_most_sq, R last_most_sq) noexcept;
     /// From middle_sq, which may exceed limits, on.

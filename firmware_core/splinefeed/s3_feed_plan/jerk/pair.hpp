@@ -18,12 +18,6 @@ struct PairOf<double> {
     using Type [[gnu::vector_size(16)]] = double;
     static constexpr Bits sign{INT64_MIN, INT64_MIN};
 };
-template <>
-struct PairOf<float> {
-    using Bits [[gnu::vector_size(8)]] = int;
-    using Type [[gnu::vector_size(8)]] = float;
-    static constexpr Bits sign{INT32_MIN, INT32_MIN};
-};
 } // namespace detail
 
 /// Two numbers, with + - * / and comparisons of each by itself. The results are those of single numbers, bit for bit.

@@ -16,7 +16,6 @@ template <Scalar S>
 std::size_t WindowPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
     if (end - first >= LegPlan::fewest_cells) {
-        slow_legs_ += hops_ == 1 ? 1U : 0U;
         planned_ = smaller(end, first + hops_);
         hops_ = smaller(2 * hops_, window_->size());
     }
@@ -34,7 +33,7 @@ void WindowPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
     leg_end_ = end;
     leg_.begin(window_->state(first));
     for (std::size_t i = first; i < end; ++i) {
-        leg_.add(window_->limits_of(i), window_->node(i).cap_sq, window_->node(i + 1).at_most_sq);
+        leg_.add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
         if (i < planned_ && window_->node(first).b > 0.0) {
             leg_.know(window_->node(i).middle_sq);
         }
