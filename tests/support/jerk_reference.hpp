@@ -93,9 +93,11 @@ inline JerkUse use_of(const splinefeed::JerkCell& cell, long double b0, long dou
             const long double first = wide(p.first) + x * (d0 + x * (c2 + x * c3));
             const long double second = (d0 + x * (2 * c2 + x * 3 * c3)) / l;
             const long double third = (2 * c2 + x * 6 * c3) / (l * l);
-            const long double a = std::abs(first * db / 2 + second * b) / wide(p.most_forward);
+            const long double a =
+                (std::abs(first * db / 2 + second * b) + wide(p.second_spread) * b) / wide(p.most_forward);
             const long double j =
-                std::sqrt(std::max(b, 0.0L)) * std::abs(first * u / 2 + 3 * second * db / 2 + third * b);
+                std::sqrt(std::max(b, 0.0L)) *
+                (std::abs(first * u / 2 + 3 * second * db / 2 + third * b) + wide(p.third_spread) * b);
             use.acceleration = std::max(use.acceleration, a);
             use.jerk = std::max(use.jerk, j / wide(cell.jerk_mm_s3[k]));
         }
