@@ -202,7 +202,7 @@ void sustained(benchmark::State& state) {
         }
         state.counters["segments_an_exchange"] = all * drives / static_cast<double>(exchanges);
         if (port.phase() == ModbusPhase::fault) {
-            state.SkipWithError(describe(port.failure()->problem));
+            state.SkipWithError(port.failure().what.c_str());
         }
     }
 }

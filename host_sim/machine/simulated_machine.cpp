@@ -59,11 +59,11 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
 
 // ---- the port
 
-int SimulatedMachine::do_room() const noexcept {
+int SimulatedMachine::room() const noexcept {
     return static_cast<int>(queue_.size() - queued_);
 }
 
-bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
+bool SimulatedMachine::submit(const FeedSegment& segment) noexcept {
     if (fault_ || halted_ || queued_ == queue_.size()) {
         return false;
     }
@@ -72,7 +72,7 @@ bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
     return true;
 }
 
-hal::PortState SimulatedMachine::do_poll() noexcept {
+hal::PortState SimulatedMachine::poll() noexcept {
     if (!fault_ && !halted_) {
         if (queued_ > 0) {
             execute(queue_[head_]);
@@ -89,7 +89,7 @@ hal::PortState SimulatedMachine::do_poll() noexcept {
     return {phase, executed_};
 }
 
-void SimulatedMachine::do_halt() noexcept {
+void SimulatedMachine::halt() noexcept {
     queued_ = 0;
     halted_ = true;
 }

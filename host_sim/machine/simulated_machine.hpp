@@ -62,6 +62,14 @@ public:
     /// @pre MotionLimits::make accepts the machine's settings (except for jerk)
     SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options = {});
 
+    [[nodiscard]] int room() const noexcept override;
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
+    hal::PortState poll() noexcept override;
+    void halt() noexcept override;
+    [[nodiscard]] hal::PortFailure failure() const override {
+        return fault_ ? hal::PortFailure{describe(*fault_)} : hal::PortFailure{};
+    }
+
     /// Call it at the end of the motion. It writes the last trace row if the last sample period is incomplete (not
     /// after a fault), and throws what the trace sink threw.
     void finish();
@@ -85,11 +93,6 @@ private:
     friend struct splinefeed::CounterSeam;
 
     struct Motion;
-
-    [[nodiscard]] int do_room() const noexcept override;
-    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
-    hal::PortState do_poll() noexcept override;
-    void do_halt() noexcept override;
 
     [[nodiscard]] static double seconds(std::uint64_t ticks) noexcept {
         return static_cast<double>(ticks) / (ticks_per_us * 1e6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RunTarget: where the feed segments of a run go in real time, in addition to the simulated machine that checks them.
+// RunTarget: where the feed segments of a run go in real time, in addition to the simulated machine that checks them: a
+// port, and what the tool has to know and to say of it.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -57,32 +58,21 @@ public:
     /// One line that the user should read before anything moves; empty: nothing.
     [[nodiscard]] virtual std::string note() const { return {}; }
 
+    /// All motion is its own, from prepare(), which ends early if SignalWatch::interrupts() grows, to close(). That one
+    /// is called before the process ends without destructors, too: drives and lines are then in their final state.
     [[nodiscard]] virtual hal::MotionPort& port() noexcept = 0;
-    /// Prepares the target for the first segment, which defines where the axes stand. May take minutes (homing); ends
-    /// early if SignalWatch::interrupts() grows. Returns an empty text, or what is wrong.
-    [[nodiscard]] virtual std::string prepare(const FeedSegment& first) = 0;
-    /// No more segments come.
-    virtual void complete() = 0;
-    /// The user wants to end the run: all axes stop on the path.
-    virtual void hold() { port().halt(); }
-    /// The second request: stops the axes at once.
-    virtual void quick_stop() = 0;
-    /// Called before each poll of the port.
-    virtual void update() {}
     /// Why the plan has to be held on its path, and ends there; empty: it has not. If the planner does not deliver the
     /// way to standstill in time, the target deals with it: its port then becomes halted.
     [[nodiscard]] virtual std::string holds() const { return {}; }
     /// Whether this hold was the purpose of the run.
     [[nodiscard]] virtual bool achieved() const { return false; }
-    /// Why the port has a fault.
-    [[nodiscard]] virtual std::string fault() const = 0;
-    /// How the axes were stopped by hold() or quick_stop().
+    /// A failure of the port for the user, and what else is not as it should be.
+    [[nodiscard]] virtual std::string sentence(const hal::PortFailure& failure) const { return failure.what; }
+    /// How the axes were stopped by halt() or quick_stop() of the port.
     [[nodiscard]] virtual std::string halted(bool quick) const = 0;
     /// Called once, when a motion that prepare() began is over, for any reason. Drives that stand are left in the state
     /// that the machine file requires (drives_at_end). Returns one line with everything that was not confirmed.
     [[nodiscard]] virtual std::string finish() = 0;
-    /// Called before the process ends without destructors: leaves drives and lines in their final state.
-    virtual void release() noexcept = 0;
 
     /// Where an axis of the machine stands, in machine coordinates.
     struct AxisPlace {
@@ -96,8 +86,8 @@ public:
         /// The place where the axis is known to stand now; nothing: there is none.
         [[nodiscard]] std::optional<double> known() const noexcept { return online ? mm : std::nullopt; }
     };
-    /// Of every axis that the target moves. Empty: no axis has moved, nor been told to, since the target was made; what
-    /// was known of its place before is still true.
+    /// Of every axis that the target moves, after prepare(). Empty: no axis has moved, nor been told to; what was known
+    /// of its place before is still true.
     [[nodiscard]] virtual std::vector<AxisPlace> places() const { return {}; }
     /// Where every axis will stand behind prepare(), if its first segment begins there. Waits until the drives stand,
     /// and sends them no command. Empty: prepare() moves the axes to the first segment by itself. Call before

@@ -106,9 +106,9 @@ void Supervision::ask_target(int requests) {
     obeyed_ = requests;
     if (requests > 1) {
         end_outputs();
-        target_->quick_stop();
+        port_->quick_stop();
     } else {
-        target_->hold();
+        port_->halt();
     }
 }
 
@@ -213,11 +213,10 @@ std::string Supervision::outputs_end() const {
 
 void Supervision::hand_over() {
     FeedSegment segment;
-    hal::MotionPort& port = target_->port();
     bool takes = true;
-    while (takes && port.room() > 0 && ring_.pop(segment)) {
+    while (takes && port_->room() > 0 && ring_.pop(segment)) {
         taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
-        takes = port.submit(segment);
+        takes = port_->submit(segment);
         if (record_ != nullptr) {
             record_->handed(segment.duration_ticks);
         }
@@ -226,7 +225,7 @@ void Supervision::hand_over() {
     const bool complete = complete_.load();
     if (complete && !completed_ && ring_.empty()) {
         completed_ = true;
-        target_->complete();
+        port_->complete();
     }
 }
 
@@ -237,10 +236,10 @@ std::string Supervision::begin() {
     }
     const FeedSegment first = ring_.front();
     began_ = true;
-    if (std::string what = target_->prepare(first); !what.empty()) {
-        return what;
+    if (const hal::PortFailure failure = port_->prepare(first)) {
+        return target_->sentence(failure);
     }
-    before_ = target_->port().poll().executed;
+    before_ = port_->poll().executed;
     return {};
 }
 
@@ -249,16 +248,18 @@ std::string Supervision::supervise() {
     for (std::uint64_t next_us = system_clock().now_us();;
          next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
         system_clock().sleep_until_us(next_us);
+        hal::PortState state;
+        const bool completed = completed_;
         try {
             obey();
-            target_->update();
+            state = port_->poll();
             hold_asked_.store(!target_->holds().empty());
             hand_over();
         } catch (const std::exception& error) {
             trouble_ = trouble_.empty() ? error.what() : trouble_;
             ask_target(1);
+            state = port_->poll();
         }
-        const hal::PortState state = target_->port().poll();
         const hal::PortPhase phase = state.phase;
         executed_.store(state.executed - before_);
         come_to(state.executed - before_);
@@ -268,18 +269,19 @@ std::string Supervision::supervise() {
         }
         if (phase == hal::PortPhase::fault) {
             end_outputs();
-            return or_unsaid(target_->fault());
+            const hal::PortFailure failure = port_->failure();
+            return or_unsaid(failure ? target_->sentence(failure) : std::string());
         }
         if (phase == hal::PortPhase::halted) {
             return or_unsaid(target_->halted(obeyed_ > 1));
         }
-        if (phase == hal::PortPhase::idle && completed_) {
+        if (phase == hal::PortPhase::idle && completed) {
             return target_->achieved() ? std::string() : target_->holds();
         }
         if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
             obeyed_ = 2;
             end_outputs();
-            target_->quick_stop();
+            port_->quick_stop();
         } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
             return "interrupted, but not every drive has confirmed that it stands";
         }
@@ -298,7 +300,7 @@ void Supervision::await_planner() noexcept {
         }
     }
     if (!leaves_.load()) {
-        target_->release();
+        port_->close();
         abandon(ending_ + "; an output whose reader does not read was given up", not_finished);
     }
 }
@@ -312,7 +314,7 @@ void Supervision::work() noexcept {
         }
     } catch (const std::exception& error) { // while it was prepared or stopped
         reason = error.what();
-        target_->quick_stop();
+        port_->quick_stop();
     }
     end(reason);
 }
@@ -349,7 +351,7 @@ void Supervision::end(const std::string& reason) noexcept {
         (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
         where_;
     signals_->at_once([this, sentence] {
-        target_->release();
+        port_->close();
         abandon(sentence, not_finished);
     });
     if (!ending_.empty()) {

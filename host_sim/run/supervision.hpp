@@ -42,7 +42,8 @@ public:
     /// @param outputs, state, record  null: there are none
     Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr,
                 StateKeeper* state = nullptr, TargetRecord* record = nullptr)
-        : target_(&target), signals_(&signals), outputs_(outputs), state_(state), record_(record) {}
+        : target_(&target), port_(&target.port()), signals_(&signals), outputs_(outputs), state_(state),
+          record_(record) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
     /// If the run is not over: stop(), and waits for the end.
@@ -114,6 +115,7 @@ private:
     void await_planner() noexcept;
 
     RunTarget* target_;
+    hal::MotionPort* port_; // of the target
     SignalWatch* signals_;
     ProgramOutputs* outputs_;
     StateKeeper* state_;

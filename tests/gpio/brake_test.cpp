@@ -36,7 +36,8 @@ struct Bench {
         FeedSegment segment;
         REQUIRE(motion.next(segment));
         const std::uint64_t began_ns = clock.now_ns();
-        REQUIRE(run_target.prepare(segment) == "");
+        hal::MotionPort& port = run_target.port();
+        REQUIRE_FALSE(port.prepare(segment));
         bool more = true;
         bool caused = false;
         for (int i = 0; i < 5000; ++i) {
@@ -44,17 +45,16 @@ struct Bench {
                 caused = true;
                 cause();
             }
-            run_target.update();
             if (!run_target.holds().empty()) {
                 motion.hold();
             }
-            while (more && run_target.port().room() > 0 && run_target.port().submit(segment)) {
+            while (more && port.room() > 0 && port.submit(segment)) {
                 more = motion.next(segment);
                 if (!more) {
-                    run_target.complete();
+                    port.complete();
                 }
             }
-            if (const hal::PortPhase phase = run_target.port().poll().phase; phase != hal::PortPhase::running) {
+            if (const hal::PortPhase phase = port.poll().phase; phase != hal::PortPhase::running) {
                 return phase;
             }
             clock.sleep_us(1000);
@@ -146,13 +146,13 @@ TEST_CASE("a parked port switches the drives on again, and releases the brake", 
         bench.clock.sleep_us(20'000);
         CHECK(lines.enabled());
         CHECK(lines.released(lines.rows().back().levels));
-        port.stop();
-        port.park();
+        port.close();
+        port.power_off();
         CHECK_FALSE(lines.enabled());
         CHECK_FALSE(lines.released(lines.rows().back().levels));
         port.reset();
     }
     const std::size_t rows = lines.rows().size();
-    port.park(); // already
+    port.power_off(); // already
     CHECK(lines.rows().size() == rows);
 }

@@ -26,7 +26,7 @@ TEST_CASE("homing", "[stopping]") {
         std::string what = mover.home();
         CHECK_FALSE(mover.referenced(0)); // whatever ended it
         friendly->join();
-        port.stop();
+        port.close();
         return what;
     };
     const auto after_ms = [&](double ms) {
@@ -66,7 +66,7 @@ TEST_CASE("homing", "[stopping]") {
             CHECK(mover.referenced(0));
             CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // pull_off_mm clear of the edge, which is at 0
             CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
-            port.stop();
+            port.close();
         }
         CHECK(what == "");
     }

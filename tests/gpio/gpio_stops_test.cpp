@@ -82,7 +82,8 @@ Outcome run(Bench& bench, const Story& story) {
     StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
     std::optional<FeedSegment> next(std::in_place);
     REQUIRE(motion.next(*next));
-    REQUIRE(run_target.prepare(*next) == "");
+    hal::MotionPort& port = run_target.port();
+    REQUIRE_FALSE(port.prepare(*next));
     bool caused = false;
     bool twice = false;
     bool completed = false;
@@ -98,8 +99,8 @@ Outcome run(Bench& bench, const Story& story) {
             switch (story.cause) {
             case Story::Cause::none: break;
             case Story::Cause::hold:
-            case Story::Cause::hold_then_quick_stop: run_target.hold(); break;
-            case Story::Cause::quick_stop: run_target.quick_stop(); break;
+            case Story::Cause::hold_then_quick_stop: port.halt(); break;
+            case Story::Cause::quick_stop: port.quick_stop(); break;
             case Story::Cause::e_stop: bench.lines->drive(e_stop, true, story.with_edge); break;
             case Story::Cause::limit: bench.lines->drive(limit, true, story.with_edge); break;
             case Story::Cause::broken_line: bench.lines->fail(true); break;
@@ -107,15 +108,14 @@ Outcome run(Bench& bench, const Story& story) {
         }
         if (story.cause == Story::Cause::hold_then_quick_stop && caused && !twice && t >= story.at_ms + 20.0) {
             twice = true;
-            run_target.quick_stop();
+            port.quick_stop();
         }
-        run_target.update();
         if (!target.holds().empty()) {
             motion.hold();
         }
         const bool delivers = !(caused && story.blocked);
-        while (delivers && next && run_target.port().room() > 0) {
-            if (!run_target.port().submit(*next)) {
+        while (delivers && next && port.room() > 0) {
+            if (!port.submit(*next)) {
                 break;
             }
             if (!motion.next(*next)) {
@@ -124,15 +124,15 @@ Outcome run(Bench& bench, const Story& story) {
         }
         if (delivers && !next && !completed) {
             completed = true;
-            run_target.complete();
+            port.complete();
         }
-        outcome.phase = run_target.port().poll().phase;
+        outcome.phase = port.poll().phase;
         if (outcome.phase != hal::PortPhase::running) {
             break;
         }
         bench.clock.sleep_us(1000);
     }
-    outcome.why = outcome.phase == hal::PortPhase::fault    ? run_target.fault()
+    outcome.why = outcome.phase == hal::PortPhase::fault    ? port.failure().what
                   : outcome.phase == hal::PortPhase::halted ? run_target.halted(twice)
                                                             : target.holds();
     outcome.standstill_ms = std::max(0.0, bench.last_step_ms() - caused_ms);
@@ -237,7 +237,7 @@ TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopp
     FeedSegment segment;
     REQUIRE(motion.next(segment));
     RunTarget& target = *bench.target;
-    REQUIRE(target.prepare(segment) == "");
+    REQUIRE_FALSE(target.port().prepare(segment));
     while (bench.now_ms() < 500.0) {
         while (target.port().room() > 0 && target.port().submit(segment)) {
             REQUIRE(motion.next(segment));
@@ -245,7 +245,7 @@ TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopp
         bench.clock.sleep_us(1000);
     }
     CHECK(target.places()[0].known()); // as far as it has come
-    target.quick_stop();
+    target.port().quick_stop();
     CHECK_FALSE(target.places()[0].known());
     bench.clock.sleep_us(110'000);
     CHECK(target.places()[0].known());
@@ -257,8 +257,8 @@ TEST_CASE("an axis that did not find its reference has no place, the others do",
     FeedSegment first;
     REQUIRE(motion.next(first));
     RunTarget& target = *bench.target;
-    CHECK(target.prepare(first).find("axis x does not find its reference: the home of axis x (line 2) does not act") ==
-          0);
+    CHECK(target.port().prepare(first).what.find(
+              "axis x does not find its reference: the home of axis x (line 2) does not act") == 0);
     REQUIRE(target.places().size() == 2);
     CHECK_FALSE(target.places()[0].known());
     CHECK(target.places()[1].known() == 0.0);
@@ -288,8 +288,8 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
     StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
     FeedSegment segment;
     REQUIRE(motion.next(segment));
-    REQUIRE(static_cast<RunTarget&>(*bench.target).prepare(segment) == "");
     RunTarget& target = *bench.target;
+    REQUIRE_FALSE(target.port().prepare(segment));
     bool stalled = false;
     bool more = true;
     hal::PortPhase phase = hal::PortPhase::running;
@@ -298,7 +298,7 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
             more = motion.next(segment);
         }
         if (!more) {
-            target.complete();
+            target.port().complete();
         }
         if (!stalled && bench.now_ms() > 800.0) {
             stalled = true;
@@ -313,7 +313,7 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
         CHECK(bench.steps(0) == 16'000);
     } else {
         CHECK(phase == hal::PortPhase::fault);
-        CHECK(target.fault().find("no step was made for longer than 40 ms") != std::string::npos);
+        CHECK(target.port().failure().what.find("no step was made for longer than 40 ms") != std::string::npos);
         CHECK(target.where().find("is not known") != std::string::npos);
         CHECK_FALSE(target.places().front().known());
         CHECK(bench.last_step_ms() < 800.0 + stall_ms + 2.0);

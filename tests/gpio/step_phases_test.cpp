@@ -83,7 +83,7 @@ public:
                 rig_.port.quick_stop();
                 rig_.clock.sleep_us(1000);
             }
-            rig_.port.stop();
+            rig_.port.close();
             check();
             rig_.lines.fail(likely(0.2));
             if (likely(0.3)) {
@@ -92,19 +92,19 @@ public:
                 }
                 static_cast<void>(rig_.port.start()); // without reset()
                 rig_.clock.sleep_us(like_us(50'000.0));
-                rig_.port.stop();
+                rig_.port.close();
             }
             if (likely(0.3)) {
                 if (likely(0.1)) {
                     rig_.port.disable();
                 }
-                rig_.port.park();
+                rig_.port.power_off();
                 CHECK((rig_.port.may_be_on() || !rig_.lines.enabled()));
             }
             rig_.port.reset();
         }
         rig_.lines.fail(false);
-        rig_.port.park();
+        rig_.port.power_off();
         CHECK_FALSE(rig_.lines.enabled());
         const std::size_t rows = rig_.lines.rows().size();
         rig_.clock.sleep_us(100'000);

@@ -27,7 +27,7 @@ const std::array endings{
     Ending{"complete too early", [](PortRig& rig) { rig.port.complete(); }, hal::PortPhase::halted,
            "the motion ends before the axes are at rest"},
     Ending{"the planner delivers nothing more", [](PortRig&) {}, hal::PortPhase::running, ""},
-    Ending{"the port is stopped", [](PortRig& rig) { rig.port.stop(); }, hal::PortPhase::halted, ""},
+    Ending{"the port is stopped", [](PortRig& rig) { rig.port.close(); }, hal::PortPhase::halted, ""},
     Ending{"quick stop", [](PortRig& rig) { rig.port.quick_stop(); }, hal::PortPhase::halted, ""},
     Ending{"a segment that does not join",
            [](PortRig& rig) {
@@ -64,10 +64,10 @@ TEST_CASE("a motion that ends in its middle is braked on the path, within the ax
             rig.clock.sleep_us(250'000);
             CHECK(rig.port.at_standstill());
             CHECK(rig.port.poll().phase == ending.phase);
-            CHECK(rig.port.trouble() == ending.why);
+            CHECK(rig.port.failure().what == ending.why);
             const std::size_t rows = rig.lines.rows().size();
-            rig.port.stop();
-            rig.port.park();
+            rig.port.close();
+            rig.port.power_off();
             CHECK(rig.lines.rows().size() <= rows + 2); // brake, enable
             CHECK_FALSE(rig.lines.enabled());
             CHECK(rig.port.position_known());
@@ -93,7 +93,7 @@ TEST_CASE("a motion that is complete too early before it begins moves nothing", 
     rig.clock.sleep_us(100'000);
     CHECK(rig.port.poll().phase == hal::PortPhase::halted);
     CHECK(rig.steps(0) == 0);
-    rig.port.stop();
+    rig.port.close();
 }
 
 TEST_CASE("an e-stop between two motions leaves no drive on", "[stopping]") {
@@ -101,10 +101,10 @@ TEST_CASE("an e-stop between two motions leaves no drive on", "[stopping]") {
     static_cast<void>(rig.port.start());
     rig.port.complete();
     rig.clock.sleep_us(100'000);
-    rig.port.stop();
+    rig.port.close();
     SECTION("behind the last one") {
         rig.port.disable();
-        rig.port.park();
+        rig.port.power_off();
     }
     SECTION("before the next one") {
         rig.port.reset();
@@ -117,7 +117,7 @@ TEST_CASE("an e-stop between two motions leaves no drive on", "[stopping]") {
             rig.port.disable();
         });
         const double before_ms = rig.now_ms();
-        rig.port.park();
+        rig.port.power_off();
         CHECK(rig.now_ms() < before_ms + 15.0);
         switches->join();
     }
@@ -141,10 +141,10 @@ TEST_CASE("a thread that stands still is a fault within a bound, and disables th
         rig.clock.sleep_us(1000);
         REQUIRE(rig.now_ms() < 2600.0);
     }
-    CHECK(rig.port.trouble().find("the thread that makes steps has not run for 2 s") == 0);
+    CHECK(rig.port.failure().what.find("the thread that makes steps has not run for 2 s") == 0);
     CHECK(rig.port.may_be_on());
     CHECK_FALSE(rig.port.position_known());
-    rig.port.stop();
+    rig.port.close();
     CHECK_FALSE(rig.lines.enabled());
     CHECK_FALSE(rig.port.may_be_on());
 }

@@ -30,7 +30,7 @@ TEST_CASE("a port that was disabled enables nothing, before and after", "[stoppi
         port.disable();
         clock.sleep_us(1000);
         CHECK_FALSE(lines.enabled());
-        port.stop();
+        port.close();
         port.reset();
         const std::size_t rows = lines.rows().size();
         static_cast<void>(port.start());
@@ -39,7 +39,7 @@ TEST_CASE("a port that was disabled enables nothing, before and after", "[stoppi
     CHECK(port.poll().phase == hal::PortPhase::fault);
     CHECK_FALSE(port.submit({}));
     CHECK_FALSE(lines.enabled());
-    port.stop();
+    port.close();
 }
 
 TEST_CASE("a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
@@ -64,5 +64,5 @@ TEST_CASE("a line that cannot be set leaves no drive on, as soon as that can be"
     clock.sleep_us(2000);
     CHECK_FALSE(port.may_be_on());
     CHECK_FALSE(lines.enabled());
-    port.stop();
+    port.close();
 }

@@ -256,7 +256,7 @@ TEST_CASE("a chip that does not obey any more is a fault with the system's reaso
     StepPort port({wired(writer)}, settings());
     INFO(port.start());
     CHECK(run(port, segments, [](std::size_t) {}) == PortPhase::fault);
-    CHECK(port.trouble() == "a line cannot be set: No such device");
+    CHECK(port.failure().what == "a line cannot be set: No such device");
     const auto rows = writer.rows();
     REQUIRE(rows.size() > 40);
     for (std::size_t i = 40; i < rows.size(); ++i) { // what is tried behind it is to switch off
@@ -277,7 +277,7 @@ TEST_CASE("one motion after another: counts go on, and so do lines of which each
         const std::vector<FeedSegment> segments = RandomSegments(seed).smooth(axes, 60, 8000, 3000.0);
         INFO(port.start());
         REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
-        port.stop();
+        port.close();
         port.reset();
         for (unsigned k = 0; k < axes; ++k) {
             expected[k] += nearest_step(segments.back().end[k]) - nearest_step(segments.front().start[k]);

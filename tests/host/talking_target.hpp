@@ -18,64 +18,45 @@ using namespace splinefeed;
 using namespace splinefeed::host;
 
 /// Takes and executes at once; it says what it was told, in order.
-class TalkingTarget final : public RunTarget {
+class TalkingTarget final : public RunTarget, public hal::MotionPort {
 public:
-    class Port final : public hal::MotionPort {
-    public:
-        explicit Port(TalkingTarget& target) : target_(&target) {}
-
-    private:
-        [[nodiscard]] int do_room() const noexcept override { return target_->takes ? 1 : 0; }
-        [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override {
-            target_->said("segment " + std::to_string(segment.index));
-            return target_->phase == hal::PortPhase::running;
-        }
-        hal::PortState do_poll() noexcept override { return {target_->phase, target_->executed}; }
-        void do_halt() noexcept override { target_->phase = hal::PortPhase::halted; }
-
-        TalkingTarget* target_;
-    };
-
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return false; }
-    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    [[nodiscard]] std::string prepare(const FeedSegment& /*first*/) override {
-        said("prepare");
-        return refusal;
-    }
-    void complete() override {
-        said("complete");
-        phase = hal::PortPhase::idle;
-    }
-    void hold() override {
-        said("hold");
-        if (halts) {
-            port().halt();
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
+    [[nodiscard]] std::string holds() const override {
+        if (breaks) {
+            throw std::runtime_error("it broke");
         }
+        return reason;
     }
-    void quick_stop() override {
-        said("quick stop");
-        if (stops) {
-            port().halt();
-        }
-    }
-    [[nodiscard]] std::string holds() const override { return reason; }
     [[nodiscard]] bool achieved() const override { return false; }
-    [[nodiscard]] std::string fault() const override { return "a fault"; }
     [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
     [[nodiscard]] std::string finish() override {
         said("finish");
         return unfinished;
     }
-    void release() noexcept override { said("release"); }
     [[nodiscard]] std::vector<AxisPlace> places() const override { return stands; }
     [[nodiscard]] std::string where() const override { return "; there"; }
     void describe(Summary& /*summary*/) const override {}
-    void update() override {
-        if (breaks) {
-            throw std::runtime_error("it broke");
-        }
+
+    [[nodiscard]] hal::PortFailure prepare(const FeedSegment& /*first*/) override {
+        said("prepare");
+        return {refusal};
     }
+    [[nodiscard]] int room() const noexcept override { return takes ? 1 : 0; }
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override {
+        said("segment " + std::to_string(segment.index));
+        return phase == hal::PortPhase::running;
+    }
+    void complete() noexcept override {
+        said("complete");
+        phase = hal::PortPhase::idle;
+    }
+    hal::PortState poll() noexcept override { return {phase, executed}; }
+    void halt() noexcept override { stop("hold", halts); }
+    void quick_stop() noexcept override { stop("quick stop", stops); }
+    void close() noexcept override { said("release"); }
+    [[nodiscard]] hal::PortFailure failure() const override { return {"a fault"}; }
 
     void said(const std::string& what) {
         const std::lock_guard lock(mutex_);
@@ -99,7 +80,11 @@ public:
     std::atomic<std::uint64_t> executed{0};
 
 private:
-    Port port_{*this};
+    void stop(const char* what, bool obeys) noexcept {
+        said(what);
+        phase = obeys ? hal::PortPhase::halted : phase.load();
+    }
+
     mutable std::mutex mutex_;
     std::vector<std::string> said_;
 };

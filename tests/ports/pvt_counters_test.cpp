@@ -129,9 +129,9 @@ TEST_CASE("PVT port, virtual: what a segment cannot carry stops all on the path 
     }
     CHECK(next == 250);
     CHECK(phase == PortPhase::fault);
-    REQUIRE(port.failure().has_value());
-    CHECK(port.failure()->problem == DriveProblem::range);
-    CHECK(port.failure()->drive == 1);
+    REQUIRE(port.failure());
+    CHECK(names(port.failure(), DriveProblem::range));
+    CHECK(port.failure().drive == 1);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(port.stop_report(i).held());
     }

@@ -37,7 +37,7 @@ struct Homing {
         out.drive.axes[0].stop_counts_s2 = stop_counts_s2;
         return out;
     }
-    std::optional<DriveFailure> prepare() {
+    PortFailure prepare() {
         const auto failure = plant.port->prepare(motion.segments.front());
         ended_us = plant.clock.now_us();
         return failure;
@@ -64,7 +64,7 @@ TEST_CASE("PVT port, virtual: homing that the user ends stops every drive, with 
         interrupts_us = homing.began_us + 3'000'000;
         const auto failure = homing.prepare();
         REQUIRE(failure);
-        CHECK(failure->problem == DriveProblem::interrupted);
+        CHECK(names(failure, DriveProblem::interrupted));
         homing.check_all_stand();
     }
 }
@@ -84,8 +84,8 @@ TEST_CASE("PVT port, virtual: a drive that dies while it homes stops the others,
     homing.plant.stations[1]->mute.push_back({dies_us, UINT64_MAX});
     const auto failure = homing.prepare();
     REQUIRE(failure);
-    CHECK(failure->drive == 1);
-    CHECK(failure->problem == DriveProblem::silent);
+    CHECK(failure.drive == 1);
+    CHECK(names(failure, DriveProblem::silent));
     CHECK(homing.ended_us < dies_us + 5'000'000);
     CHECK(homing.plant.port->stop_report(1).state == StopState::unconfirmed);
     CHECK(homing.plant.port->stop_report(0).state == StopState::confirmed);
@@ -112,10 +112,10 @@ TEST_CASE("PVT port, virtual: a fault is reset where that is asked for, and told
             REQUIRE(machine.state() == PvtState::fault);
             machine.shaft(0).disturb(stays ? 1e7 : 0.0);
             const auto failure = plant.port->prepare(motion.segments.front());
-            CHECK(failure.has_value() == (!reset || stays));
+            CHECK(bool(failure) == (!reset || stays));
             if (failure) {
-                CHECK(failure->drive == 1);
-                CHECK(failure->problem == DriveProblem::fault);
+                CHECK(failure.drive == 1);
+                CHECK(names(failure, DriveProblem::fault));
             }
             plant.events.clear();
             plant.port.reset();
@@ -136,7 +136,7 @@ TEST_CASE("PVT port, virtual: a drive that another program uses is refused at on
     ModbusPortSettings settings;
     settings.make_line = plant.make_line();
     settings.clock = &plant.clock;
-    std::optional<DriveFailure> second;
+    PortFailure second;
     std::uint64_t took_us = 0;
     const auto other = plant.clock.start([&] {
         plant.clock.sleep_us(150'000);
@@ -148,7 +148,7 @@ TEST_CASE("PVT port, virtual: a drive that another program uses is refused at on
     CHECK(run(plant, motion, {}) == PortPhase::idle);
     other->join();
     REQUIRE(second);
-    CHECK(second->problem == DriveProblem::busy);
+    CHECK(names(second, DriveProblem::busy));
     CHECK(took_us < 500'000);
     CHECK(plant.port->resumes() == 0);
     CHECK(plant.executed_once(0) == motion.segments.size());
@@ -160,7 +160,7 @@ TEST_CASE("PVT port, virtual: a position is not known behind a power cycle", "[p
     plant.begin(motion);
     plant.events.emplace_back(plant.began_us + 300'000, [&] { plant.drives[1]->power_cycle(); });
     CHECK(run(plant, motion, {}) == PortPhase::fault);
-    CHECK(plant.port->failure()->problem == DriveProblem::power_cycled);
+    CHECK(names(plant.port->failure(), DriveProblem::power_cycled));
     CHECK(plant.port->known_position(0, 0));
     CHECK_FALSE(plant.port->known_position(1, 0));
     plant.events.clear();

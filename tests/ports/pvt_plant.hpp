@@ -11,6 +11,11 @@
 
 namespace splinefeed_test {
 
+/// Whether the failure is this problem.
+inline bool names(const splinefeed::hal::PortFailure& failure, splinefeed::hal::modbus::DriveProblem problem) {
+    return failure.what.rfind(describe(problem), 0) == 0;
+}
+
 struct PvtPlantParameters {
     std::vector<int> axes{1, 1, 1}; ///< of each drive
     bool one_wire = false;

@@ -11,7 +11,7 @@ using namespace splinefeed_test;
 namespace {
 
 struct Prepared {
-    std::optional<DriveFailure> failure;
+    PortFailure failure;
     std::uint64_t took_us = 0;
 };
 
@@ -48,8 +48,8 @@ TEST_CASE("PVT setup: words that are swapped while drives are made ready are wha
             prepare(seed, at_us, lost, [](splinefeed::host::PvtDrive& drive) { drive.swap_words(); });
         CAPTURE(seed, at_us, lost, prepared.took_us);
         if (prepared.failure) { // else it was ready before
-            CHECK(prepared.failure->drive == 1);
-            CHECK(prepared.failure->problem == DriveProblem::words_swapped);
+            CHECK(prepared.failure.drive == 1);
+            CHECK(names(prepared.failure, DriveProblem::words_swapped));
             ++named;
         }
     }

@@ -118,7 +118,7 @@ using Tally = FaultedTally<SetpointPhase, SetpointEvent>;
 
 void judge(SetpointPlant& plant, Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
     SetpointPort& port = *plant.port;
-    INFO("trouble: " << port.trouble() << ", " << port.poll().executed << " segments executed, " << port.resumes()
+    INFO("trouble: " << port.failure().what << ", " << port.poll().executed << " segments executed, " << port.resumes()
                      << " resumes");
     CHECK(phase != PortPhase::running);
     // A drive that is not told what comes next goes on for a period, and brakes; who catches up goes no further.
@@ -143,12 +143,11 @@ void run_seed(std::uint64_t seed, Tally& tally) {
     SetpointPlant plant(scenario.parameters);
     plant.make({.away_us = away_us});
     plant.sample_positions();
-    REQUIRE(plant.port->open() == "");
+    REQUIRE_FALSE(plant.port->open());
     SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
     scenario.spoil_setup(plant);
-    const std::string what = plant.port->prepare(motion.segments.front());
-    if (!what.empty()) {
-        INFO("seed " << seed << ": " << scenario.text << ": " << what);
+    if (const auto failure = plant.port->prepare(motion.segments.front())) {
+        INFO("seed " << seed << ": " << scenario.text << ": " << failure.what);
         CHECK(scenario.setup_spoilt);
         CHECK(plant.port->poll().phase == PortPhase::fault);
         ++tally.endings["not ready"];

@@ -33,9 +33,9 @@ TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are 
     SetpointPlant plant({.change = watch});
     plant.make({.home = true});
     plant.sample_positions();
-    REQUIRE(plant.port->open() == "");
+    REQUIRE_FALSE(plant.port->open());
     const std::uint64_t begun_us = plant.clock.now_us();
-    CHECK(plant.port->prepare(motion.segments.front()) == "");
+    CHECK_FALSE(plant.port->prepare(motion.segments.front()));
     CHECK(plant.clock.now_us() - begun_us > 3 * 200'000U); // each took longer than the watchdog's time
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(plant.port->report(i).reading.state != DriveState::fault);
@@ -52,8 +52,8 @@ TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again
     REQUIRE(mode != nullptr);
     plant.make({.home = true});
     plant.sample_positions();
-    REQUIRE(plant.port->open() == "");
-    REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+    REQUIRE_FALSE(plant.port->open());
+    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
     for (host::ProfileDrive* const drive : plant.drives) {
         std::array<std::uint16_t, 4> registers{};
         const std::span<std::uint16_t> words = std::span(registers).first(mode->registers());
@@ -149,14 +149,14 @@ TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or sa
                         return asked_to_stop;
                     }});
         plant.sample_positions();
-        REQUIRE(plant.port->open() == "");
+        REQUIRE_FALSE(plant.port->open());
         plant.each_ms = [&] {
             if (!spoilt && plant.drives[1]->axis().homing()) {
                 spoilt = std::fabs(plant.drives[1]->axis().reference().velocity_counts_s()) > 15'000.0;
                 spoilt ? fault.spoil(plant) : void();
             }
         };
-        const std::string trouble = plant.port->prepare(motion.segments.front());
+        const std::string trouble = plant.port->prepare(motion.segments.front()).what;
         const std::uint64_t ended_us = plant.clock.now_us();
         REQUIRE(spoilt);
         CHECK(trouble.substr(0, fault.trouble.size()) == fault.trouble);
@@ -164,7 +164,7 @@ TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or sa
             CHECK(trouble.empty());
             continue;
         }
-        CHECK(plant.port->trouble_with() == fault.with);
+        CHECK(plant.port->failure().drive == fault.with);
         CHECK(plant.port->poll().phase == PortPhase::fault);
         const StopReport stopped = plant.port->stop_report(1);
         CHECK(stopped.request == fault.request);
@@ -181,9 +181,9 @@ TEST_CASE("Set-point port, virtual: drives are switched off where a set-up fails
     SetpointPlant plant({});
     plant.make();
     plant.sample_positions();
-    REQUIRE(plant.port->open() == "");
+    REQUIRE_FALSE(plant.port->open());
     plant.drives[2]->axis().trip(host::AxisFault::following_error);
-    CHECK(plant.port->prepare(motion.segments.front()).find("it is in fault, code 34321;") == 0);
+    CHECK(plant.port->prepare(motion.segments.front()).what.find("it is in fault, code 34321;") == 0);
     CHECK(plant.drives[0]->axis().power() == host::AxisPower::on);
     plant.port->power_off();
     for (std::size_t i = 0; i < 3; ++i) {
@@ -203,8 +203,8 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
             plant.make({.home = true});
             plant.sample_positions();
             plant.wires[0]->silences.emplace_back(at, 150'000);
-            const bool opened = plant.port->open().empty();
-            const bool ready = opened && plant.port->prepare(motion.segments.front()).empty();
+            const bool opened = !plant.port->open();
+            const bool ready = opened && !plant.port->prepare(motion.segments.front());
             const std::uint64_t ended_us = plant.clock.now_us();
             requests = std::max(requests, plant.wires[0]->requests);
             if (!opened) {

@@ -79,15 +79,15 @@ public:
         port.emplace(wirings, settings);
     }
 
-    /// Makes the port, and makes it ready for a motion. Returns what is wrong; empty: nothing.
-    [[nodiscard]] std::string begin(const SmoothMotion& motion,
-                                    const splinefeed::hal::modbus::SetpointPortSettings& settings = {}) {
+    /// Makes the port, and makes it ready for a motion. Returns what is wrong.
+    [[nodiscard]] splinefeed::hal::PortFailure
+    begin(const SmoothMotion& motion, const splinefeed::hal::modbus::SetpointPortSettings& settings = {}) {
         make(settings);
-        REQUIRE(port->open() == "");
-        std::string what = port->prepare(motion.segments.front());
+        REQUIRE_FALSE(port->open());
+        auto failure = port->prepare(motion.segments.front());
         began_us = clock.now_us();
         next = 0;
-        return what;
+        return failure;
     }
 
     splinefeed::hal::modbus::DriveProfile profile;

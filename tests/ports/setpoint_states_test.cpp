@@ -62,19 +62,19 @@ TEST_CASE("Set-point port, virtual: a later run works whatever an earlier one ha
             INFO(profile << ", after " << left.name);
             SetpointPlant plant({.profile = profile});
             plant.sample_positions();
-            REQUIRE(plant.begin(motion) == "");
+            REQUIRE_FALSE(plant.begin(motion));
             left.leave(plant);
             plant.port.reset();
             plant.clock.sleep_us(300'000);
-            std::string what = plant.begin(motion);
-            CHECK((what.find("run again with --reset") != std::string::npos) == left.needs_reset);
+            PortFailure failure = plant.begin(motion);
+            CHECK((failure.remedy == Remedy::reset) == left.needs_reset);
             if (left.needs_reset) {
-                CHECK(what.find("it is in fault, code ") == 0);
-                CHECK(plant.port->trouble_with() == 1);
+                CHECK(failure.what.find("it is in fault, code ") == 0);
+                CHECK(failure.drive == 1);
                 plant.port.reset();
-                what = plant.begin(motion, {.reset = true});
+                failure = plant.begin(motion, {.reset = true});
             }
-            REQUIRE(what == "");
+            REQUIRE_FALSE(failure);
             CHECK(run(plant, motion, {}) == PortPhase::idle);
         }
     }
@@ -96,11 +96,11 @@ TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a 
             SetpointPlantParameters parameters{.profile = profile, .standstill_counts = dither.window_counts};
             parameters.faults.dither_counts = dither.counts;
             SetpointPlant plant(parameters);
-            REQUIRE(plant.begin(motion) == "");
+            REQUIRE_FALSE(plant.begin(motion));
             CHECK(run(plant, motion, {.starved_from_us = 100'000, .starved_to_us = 900'000}) == PortPhase::idle);
             CHECK(plant.port->resumes() == 1);
             plant.port.reset();
-            REQUIRE(plant.begin(motion) == "");
+            REQUIRE_FALSE(plant.begin(motion));
             CHECK(run(plant, motion, {.hold_us = 250'000}) == PortPhase::halted);
             for (std::size_t i = 0; i < 3; ++i) {
                 CHECK(plant.port->stop_report(i).request == StopRequest::hold);
@@ -126,7 +126,7 @@ TEST_CASE("Set-point port, virtual: segments of any duration fit the buffer", "[
                                  }});
             const auto a_leg = static_cast<int>(300'000 / segments.segment_us);
             const SmoothMotion brief = smooth_motion(800.0, 2, a_leg, segments.segment_us);
-            REQUIRE(plant.begin(brief) == "");
+            REQUIRE_FALSE(plant.begin(brief));
             CHECK(run(plant, brief, {}) == PortPhase::idle);
             CHECK(plant.port->poll().executed == brief.segments.size());
         }
@@ -140,7 +140,7 @@ TEST_CASE("Set-point port, virtual: a motion that ends while it moves is slowed 
         SetpointPlant plant({.profile = profile});
         plant.sample_positions();
         SmoothMotion cut = smooth_motion(8000.0, 1, 250, 4000);
-        REQUIRE(plant.begin(cut) == "");
+        REQUIRE_FALSE(plant.begin(cut));
         plant.each_ms = [&, next_us = plant.began_us]() mutable {
             if (plant.clock.now_us() >= next_us) {
                 next_us += 20'000;
@@ -170,7 +170,7 @@ TEST_CASE("Set-point port, virtual: no shaft jumps to a target after a gap of it
                 INFO("a gap of " << gap_us << " us at " << from_us << ", mute " << mute);
                 SetpointPlant plant({.profile = "cia402-index", .fastest_counts_s = motion.fastest_counts_s});
                 plant.sample_positions();
-                REQUIRE(plant.begin(motion) == "");
+                REQUIRE_FALSE(plant.begin(motion));
                 const Span gap{plant.began_us + from_us, plant.began_us + from_us + gap_us};
                 (mute ? plant.stations[1]->mute : plant.wires[1]->unplugged).push_back(gap);
                 CHECK(run(plant, motion, {}) == PortPhase::idle);
@@ -187,13 +187,13 @@ TEST_CASE("Set-point port, virtual: a motion that late answers stop again and ag
         INFO(profile);
         SetpointPlant plant({.profile = profile});
         plant.sample_positions();
-        REQUIRE(plant.begin(longer) == "");
+        REQUIRE_FALSE(plant.begin(longer));
         plant.wires[1]->faults.late = 0.3;
         plant.wires[1]->faults.late_us = 49'000; // less than the time-out
         CHECK(run(plant, longer, {}) == PortPhase::fault);
-        INFO(plant.port->trouble() << ", " << plant.port->resumes() << " resumes");
-        CHECK(plant.port->trouble().find("its line is too slow for targets: ") == 0);
-        CHECK(plant.port->trouble_with() == 1);
+        INFO(plant.port->failure().what << ", " << plant.port->resumes() << " resumes");
+        CHECK(plant.port->failure().what.find("its line is too slow for targets: ") == 0);
+        CHECK(plant.port->failure().drive == 1);
         CHECK(plant.clock.now_us() < plant.began_us + 25'000'000);
     }
 }
@@ -204,7 +204,7 @@ TEST_CASE("Set-point port, virtual: pauses of a program are no late answers, how
         INFO(profile);
         SetpointPlant plant({.profile = profile});
         plant.sample_positions();
-        REQUIRE(plant.begin(longer) == "");
+        REQUIRE_FALSE(plant.begin(longer));
         PortPhase phase = PortPhase::running;
         for (int ms = 0; phase == PortPhase::running && ms < 300'000; ++ms) {
             for (int i = 0; ms % 3000 == 0 && i < 90 && plant.next < longer.segments.size(); ++i) {

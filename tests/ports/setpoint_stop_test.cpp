@@ -14,7 +14,7 @@ const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
 
 void prepare(SetpointPlant& plant) {
     plant.sample_positions();
-    REQUIRE(plant.begin(motion) == "");
+    REQUIRE_FALSE(plant.begin(motion));
 }
 
 } // namespace
@@ -38,7 +38,7 @@ TEST_CASE("Set-point port, virtual: a whole motion near the path, with every pro
 TEST_CASE("Set-point port, virtual: the longest stop has room for four answers that do not come", "[ports]") {
     const auto longest_us = [](std::uint32_t answer_us) {
         SetpointPlant plant({});
-        REQUIRE(plant.begin(motion, {.timing = {.answer_us = answer_us}}) == "");
+        REQUIRE_FALSE(plant.begin(motion, {.timing = {.answer_us = answer_us}}));
         return plant.port->longest_stop_us();
     };
     CHECK(longest_us(900'000) - longest_us(800'000) == 4 * 100'000); // slower than any drive of a profile
@@ -168,8 +168,8 @@ TEST_CASE("Set-point port, virtual: one drive stops for itself, and all stop", "
         const std::uint64_t trips_us = plant.began_us + 250'000;
         plant.events.emplace_back(trips_us, [&] { plant.drives[2]->stop_by_itself(); });
         CHECK(run(plant, motion, {}) == PortPhase::fault);
-        INFO(plant.port->trouble());
-        CHECK(plant.port->trouble_with() == 2);
+        INFO(plant.port->failure().what);
+        CHECK(plant.port->failure().drive == 2);
         CHECK(plant.clock.now_us() < trips_us + 1'000'000);
         for (std::size_t i = 0; i < 3; ++i) {
             CHECK(plant.port->stop_report(i).state == StopState::confirmed);
@@ -182,7 +182,7 @@ TEST_CASE("Set-point port, virtual: after a long pause of the host a stop still 
     for (const char* const profile : {"cia402-index", "lexium32m"}) {
         INFO(profile);
         SetpointPlant plant({.profile = profile});
-        REQUIRE(plant.begin(motion) == "");
+        REQUIRE_FALSE(plant.begin(motion));
         const std::uint64_t pause_us = plant.port->longest_stop_us() + 5'000'000;
         plant.stations[1]->mute.push_back({plant.began_us + 190'000, plant.began_us + 200'000 + pause_us});
         while (plant.clock.now_us() < plant.began_us + 200'000) {

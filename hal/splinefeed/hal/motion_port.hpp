@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// MotionPort: interface of everything that executes feed segments: drives, step lines, the simulated machine. The
-// virtual calls are at the rate of segments.
+// MotionPort: interface of everything that executes feed segments, from the connection to the end: drives, step lines,
+// the simulated machine. The virtual calls are at the rate of segments.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
+#include "splinefeed/hal/port_failure.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
 namespace splinefeed::hal {
@@ -11,8 +12,8 @@ namespace splinefeed::hal {
 enum class PortPhase : std::uint8_t {
     idle,    ///< nothing queued, all axes at rest
     running, ///< executing segments
-    halted,  ///< stopped by halt(); queued segments are not executed
-    fault,   ///< stopped by the port itself; the port reports the cause
+    halted,  ///< stopped by halt() or quick_stop(); queued segments are not executed
+    fault,   ///< stopped by the port itself: failure()
 };
 
 /// What a port reports when it is polled.
@@ -21,34 +22,45 @@ struct PortState {
     std::uint64_t executed = 0; ///< segments that were executed completely
 };
 
-/// Use: while (trajectory.next(segment)) { while (port.room() == 0) port.poll(); port.submit(segment); }
+/// Use: open(), then prepare(first). For each segment: while (room() == 0) poll(); submit(segment). Then complete(),
+/// and poll() until the phase is not `running`; at last power_off(), if the drives shall not stay on, and close().
+/// What a port does not need does nothing.
 class MotionPort {
 public:
+    MotionPort(const MotionPort&) = delete;
+    MotionPort& operator=(const MotionPort&) = delete;
+
+    /// Connects to the drives and checks them. Nothing moves.
+    [[nodiscard]] virtual PortFailure open() { return {}; }
+    /// Makes the drives ready for a motion that begins where this segment does. It may take minutes (homing). After a
+    /// failure nothing moves any more, or failure() and the port's reports say which drive has not confirmed it.
+    [[nodiscard]] virtual PortFailure prepare(const FeedSegment& /*first*/) { return {}; }
     /// Number of segments that submit() accepts now.
-    [[nodiscard]] int room() const noexcept { return do_room(); }
+    [[nodiscard]] virtual int room() const noexcept = 0;
     /// Queues one segment. Returns false if the port is halted or in fault; the segment is then dropped. @pre room() >
     /// 0
-    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept { return do_submit(segment); }
+    [[nodiscard]] virtual bool submit(const FeedSegment& segment) noexcept = 0;
+    /// Declares that no more segments will come. If the last one ends in motion, all axes stop on the path.
+    virtual void complete() noexcept {}
     /// Does the port's periodic work and returns its state. On a real machine call it at least once per segment
     /// duration.
-    PortState poll() noexcept { return do_poll(); }
-    /// Stops the motion as fast as the port can and drops queued segments. Best effort; never fails.
-    void halt() noexcept { do_halt(); }
+    virtual PortState poll() noexcept = 0;
+    /// Stops the motion on the path, and drops queued segments. Best effort; never fails.
+    virtual void halt() noexcept = 0;
+    /// Stops every axis as hard as the port can, if need be off the path. Takes precedence over halt(), and ends like
+    /// it.
+    virtual void quick_stop() noexcept { halt(); }
+    /// Switches the drives off, and waits until they have confirmed it or their time is over. @pre the axes stand
+    virtual void power_off() noexcept {}
+    /// Stops axes that move, and ends the port's threads. The drives stay on.
+    virtual void close() noexcept {}
+    /// Why open() or prepare() did not succeed, why the port is in fault, or why it refused a segment. Allocates.
+    [[nodiscard]] virtual PortFailure failure() const = 0;
 
 protected:
     MotionPort() = default;
-    MotionPort(const MotionPort&) = default;
-    MotionPort(MotionPort&&) = default;
-    MotionPort& operator=(const MotionPort&) = default;
-    MotionPort& operator=(MotionPort&&) = default;
     // Not public and virtual: a public virtual destructor pulls operator delete into firmware.
     ~MotionPort() = default;
-
-private:
-    [[nodiscard]] virtual int do_room() const noexcept = 0;
-    [[nodiscard]] virtual bool do_submit(const FeedSegment& segment) noexcept = 0;
-    virtual PortState do_poll() noexcept = 0;
-    virtual void do_halt() noexcept = 0;
 };
 
 } // namespace splinefeed::hal

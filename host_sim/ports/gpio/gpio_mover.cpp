@@ -106,7 +106,7 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
         return moved;
     }
     StraightMotion motion(*machine_, from, to_mm, feed_mm_s);
-    port_->stop();
+    port_->close();
     port_->reset();
     static_cast<void>(port_->start());
     const auto stopped = [this] {
@@ -135,9 +135,9 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
         time_->sleep_us(poll_every_us);
     }
     if (port_->poll().phase == hal::PortPhase::fault) {
-        moved.trouble = inputs_->trouble().empty() ? port_->trouble() : inputs_->trouble();
+        moved.trouble = inputs_->trouble().empty() ? port_->failure().what : inputs_->trouble();
     } else if (port_->halted() && moved.trouble.empty()) {
-        moved.trouble = "the port stopped before the end of the move: " + port_->trouble();
+        moved.trouble = "the port stopped before the end of the move: " + port_->failure().what;
     }
     return moved;
 }

@@ -165,7 +165,7 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
 
 // The lines become safe when nobody sets any more.
 GpioTarget::~GpioTarget() {
-    port_.stop();
+    port_.close();
 }
 
 std::string GpioTarget::note() const {
@@ -174,7 +174,11 @@ std::string GpioTarget::note() const {
                : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
 }
 
-std::string GpioTarget::prepare(const FeedSegment& first) {
+hal::PortFailure GpioTarget::prepare(const FeedSegment& first) {
+    return {make_ready(first)};
+}
+
+std::string GpioTarget::make_ready(const FeedSegment& first) {
     if (std::string what = inputs_.in_the_way(!options_.home); !what.empty()) {
         return what;
     }
@@ -204,20 +208,21 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     }
     while (inputs_.take()) { // discard the changes during homing
     }
-    port_.stop();
+    port_.close();
     port_.reset();
     static_cast<void>(port_.start());
     began_ns_ = time_->now_ns();
     return {};
 }
 
-void GpioTarget::update() {
+hal::PortState GpioTarget::poll() noexcept {
     take_changes();
     // Levels, too: a change may have been taken before the run.
     if (const auto input = inputs_.stopping(); input && holds_.empty()) {
         holds_ = fmt::format("the {} acts: held on the path", inputs_.name(*input));
     }
     follow_stop();
+    return port_.poll();
 }
 
 // What all axes do about it, as one: the plan holds; where it does not, the port stops; where that does not, it is cut.
@@ -273,7 +278,7 @@ void GpioTarget::take_changes() {
     }
 }
 
-void GpioTarget::complete() {
+void GpioTarget::complete() noexcept {
     if (options_.probe && !probed_ && holds_.empty()) {
         holds_ = "the probe did not touch anything on the way";
     }
@@ -281,7 +286,7 @@ void GpioTarget::complete() {
     port_.complete();
 }
 
-void GpioTarget::quick_stop() {
+void GpioTarget::quick_stop() noexcept {
     quick_ = true;
     holds_ = "interrupted twice: stopped on the path";
     stop_.request(hal::StopRequest::quick_stop, time_->now_us());
@@ -289,27 +294,27 @@ void GpioTarget::quick_stop() {
 }
 
 std::string GpioTarget::halted(bool /*quick*/) const {
-    if (const std::string what = port_.trouble(); !quick_ && !what.empty()) {
+    if (const std::string what = port_.failure().what; !quick_ && !what.empty()) {
         return (holds_.empty() ? holds_ : holds_ + "; ") + what + ": stopped on the path by the port";
     }
     return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
 }
 
 std::string GpioTarget::finish() {
-    port_.stop();
+    port_.close();
     if (machine_->drives_on_at_end.value_or(false) && port_.position_known()) {
         chips_->keep_drives_on();
     } else {
-        port_.park();
+        port_.power_off();
     }
     finished_ = true;
     return port_.may_be_on() && port_.position_known()
-               ? "the drives could not be disabled and may still be on: " + port_.trouble()
+               ? "the drives could not be disabled and may still be on: " + port_.failure().what
                : std::string();
 }
 
-void GpioTarget::release() noexcept {
-    port_.stop();
+void GpioTarget::close() noexcept {
+    port_.close();
     if (!finished_) {
         chips_->make_safe();
     }
@@ -321,7 +326,7 @@ std::string GpioTarget::fault() const {
         return what + ": " + drives;
     }
     if (!port_.was_disabled()) {
-        return port_.trouble();
+        return port_.failure().what;
     }
     // Asked of the port as the last means, or of the switch.
     return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: " + drives

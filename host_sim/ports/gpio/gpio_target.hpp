@@ -10,7 +10,8 @@
 
 namespace splinefeed::host {
 
-class GpioTarget final : public RunTarget {
+/// It is its own port: what the switches and the user ask for acts on the port of the step lines.
+class GpioTarget final : public RunTarget, private hal::MotionPort {
 public:
     /// Throws TargetError, and UsageError if the chip is too slow for the machine's limits. `machine` must outlive it.
     /// @param lines  lines of the map
@@ -30,17 +31,23 @@ public:
     [[nodiscard]] bool achieved() const override { return probed_; }
 
 private:
-    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
-    void complete() override;
-    void hold() override { holds_ = "interrupted: held on the path"; }
-    void quick_stop() override;
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
     [[nodiscard]] std::string halted(bool quick) const override;
     [[nodiscard]] std::string finish() override;
-    void release() noexcept override;
-    void update() override;
-    [[nodiscard]] std::string fault() const override;
 
+    [[nodiscard]] hal::PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] int room() const noexcept override { return port_.room(); }
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override { return port_.submit(segment); }
+    void complete() noexcept override;
+    hal::PortState poll() noexcept override;
+    void halt() noexcept override { holds_ = "interrupted: held on the path"; }
+    void quick_stop() noexcept override;
+    void power_off() noexcept override { port_.power_off(); }
+    void close() noexcept override;
+    [[nodiscard]] hal::PortFailure failure() const override { return {fault()}; }
+
+    [[nodiscard]] std::string make_ready(const FeedSegment& first);
+    [[nodiscard]] std::string fault() const;
     [[nodiscard]] std::optional<double> place(int axis) const;
     void take_changes();
     void follow_stop();

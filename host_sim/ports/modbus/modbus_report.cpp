@@ -41,9 +41,8 @@ constexpr std::array<std::string_view, drive_states> profile_states{"unknown: it
                                                                     "in fault"};
 
 /// A drive in fault, and the way out.
-std::string fault_trouble(const DriveTable::Drive& drive, const std::string& fault) {
-    return fmt::format("{}{}: it is in fault, {}; mend the cause, then run with --reset", drive.place, drive.name,
-                       fault);
+std::string fault_trouble(const DriveTable& table, std::size_t drive, const std::string& fault) {
+    return drive_sentence(table, {"it is in fault, " + fault, drive, hal::Remedy::reset});
 }
 
 /// Where an axis of a drive stands. @param in_mm  the user named the machine
@@ -96,19 +95,12 @@ std::string advice_on_losses(std::size_t drive, const Measured& measured, const 
                                               : "the network's load and cables");
 }
 
-std::string fault_text(const PvtStatus& status, const DriveTable::Drive& drive) {
-    const std::size_t axis = status.fault_axis;
-    return fmt::format("code {} on {}: {}", status.fault,
-                       axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis),
-                       fault_name(status.fault));
-}
-
 std::string state_of(const DriveReport& report, const DriveTable::Drive& drive, const MachineDescription& machine,
                      bool in_mm) {
     const auto state = static_cast<std::size_t>(report.status.state);
     std::string text = state < pvt_states.size() ? fmt::format("  state: {}", pvt_states[state])
                                                  : fmt::format("  state: {}, which the map does not have", state);
-    text += report.status.fault != 0 ? ", " + fault_text(report.status, drive) + "\n" : ", no fault\n";
+    text += report.status.fault != 0 ? ", " + fault_text(report.status, drive.axis_names) + "\n" : ", no fault\n";
     for (const unsigned k : indices(report.identity.axes)) {
         text += standing(drive, k, report.status.position[k], machine, in_mm);
     }
@@ -157,7 +149,7 @@ std::string advice_on_ring(const ModbusPort& port, const std::vector<Measured>& 
 LinkReport pvt_report(const DriveTable& table, const MachineDescription& machine, bool in_mm, double seconds) {
     ModbusPort port(pvt_wiring(table, machine), {});
     if (const auto failure = port.open()) {
-        throw TargetError(drive_sentence(table, port, *failure));
+        throw TargetError(drive_sentence(table, failure));
     }
     std::vector<Measured> drives(port.drives());
     measure(port, seconds, drives);
@@ -168,7 +160,7 @@ LinkReport pvt_report(const DriveTable& table, const MachineDescription& machine
         out.text += fmt::format("drive {}: {}\n", i + 1, drive.address.text) + state_of(report, drive, machine, in_mm) +
                     about(port, i, drives[i]);
         if (report.status.state == PvtState::fault && out.trouble.empty()) {
-            out.trouble = fault_trouble(drive, fault_text(report.status, drive));
+            out.trouble = fault_trouble(table, i, fault_text(report.status, drive.axis_names));
         }
     }
     out.text += "what that means:\n" + advice_on_ring(port, drives, port.least_segment_us(), machine);
@@ -178,9 +170,8 @@ LinkReport pvt_report(const DriveTable& table, const MachineDescription& machine
 /// Of drives that follow target positions.
 LinkReport target_report(const DriveTable& table, const MachineDescription& machine, bool in_mm, double seconds) {
     SetpointPort port(target_wiring(table, machine), {});
-    if (const std::string what = port.open(); !what.empty()) {
-        const DriveTable::Drive& drive = table.drives[port.trouble_with()];
-        throw TargetError(fmt::format("{}{}: {}", drive.place, drive.name, what));
+    if (const auto failure = port.open()) {
+        throw TargetError(drive_sentence(table, failure));
     }
     std::vector<Measured> drives(port.drives());
     measure(port, seconds, drives);
@@ -198,7 +189,7 @@ LinkReport target_report(const DriveTable& table, const MachineDescription& mach
                             profile_states[static_cast<std::size_t>(reading.state)], faulty ? ", " + fault : "");
         text += standing(drive, 0, port.standing_counts(i), machine, in_mm);
         if (faulty && out.trouble.empty()) {
-            out.trouble = fault_trouble(drive, fault);
+            out.trouble = fault_trouble(table, i, fault);
         }
         text += trips(drives[i], port.counts(i));
         advice += advice_on_losses(i, drives[i], table.drives[i].address.link);

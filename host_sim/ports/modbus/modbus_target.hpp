@@ -6,6 +6,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/drive_table.hpp"
 #include "host_sim/output/place_text.hpp"
+#include "host_sim/ports/modbus/drive_sentence.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/stop_sentence.hpp"
 
@@ -18,12 +19,22 @@ namespace splinefeed::host {
 template <class Port>
 class ModbusTarget : public RunTarget {
 protected:
+    /// Connects to the drives. Throws TargetError.
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
         : machine_(&machine), table_(std::move(table)), home_(options.home),
           port_(wiring_of(table_, machine),
-                {.home = options.home, .reset = options.reset, .interrupted = &SignalWatch::interrupted}) {}
+                {.home = options.home, .reset = options.reset, .interrupted = &SignalWatch::interrupted}) {
+        require(port_.open());
+    }
+
+    /// Throws TargetError if there is a failure.
+    void require(const hal::PortFailure& failure) const {
+        if (failure) {
+            throw TargetError(drive_sentence(table_, failure));
+        }
+    }
 
     [[nodiscard]] std::vector<StoppedDrive> stopped() const {
         std::vector<StoppedDrive> drives;
@@ -33,14 +44,12 @@ protected:
         return drives;
     }
 
-    /// As prepare().
-    [[nodiscard]] virtual std::string prepare_port(const FeedSegment& first) = 0;
     /// Of an axis that stands at this position in the machine's own direction, once it has its reference. A drive that
     /// answers and did not confirm its stop may still move.
     [[nodiscard]] AxisPlace place(std::size_t drive, unsigned axis, double counts, bool online) const {
         const double mm = counts / machine_->settings.axis[axis].steps_per_mm;
         const bool moves = online && port_.stop_report(drive).state == hal::StopState::unconfirmed;
-        return {axis, referenced_ && !moves ? std::optional(mm) : std::nullopt, online};
+        return {axis, port_.referenced() && !moves ? std::optional(mm) : std::nullopt, online};
     }
     /// The same before prepare(): where it will stand behind it.
     /// @param placed  the counts are those of the machine
@@ -48,7 +57,8 @@ protected:
         const double mm = home_ ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
         return {axis, home_ || placed ? std::optional(mm) : std::nullopt};
     }
-    [[nodiscard]] bool may_have_moved() const noexcept { return may_have_moved_; }
+    /// Without homing nothing moves before the port is ready.
+    [[nodiscard]] bool may_have_moved() const noexcept { return home_ || port_.referenced(); }
 
     const MachineDescription* machine_;
     DriveTable table_;
@@ -56,14 +66,6 @@ protected:
     Port port_;
 
 private:
-    // Without homing nothing moves before the port is ready.
-    [[nodiscard]] std::string prepare(const FeedSegment& first) final {
-        may_have_moved_ = home_;
-        std::string what = prepare_port(first);
-        referenced_ = what.empty();
-        may_have_moved_ = may_have_moved_ || referenced_;
-        return what;
-    }
     [[nodiscard]] std::string where() const final {
         const std::vector<AxisPlace> all = places();
         PlaceText text;
@@ -73,8 +75,9 @@ private:
         return all.empty() ? "; nothing was moved" : text.text();
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    void complete() override { port_.complete(); }
-    void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
+        return drive_sentence(table_, failure) + unconfirmed_drives(stopped());
+    }
     [[nodiscard]] std::string halted(bool quick) const override { return stop_sentence(stopped(), quick); }
     [[nodiscard]] std::string finish() override {
         if (machine_->drives_on_at_end.value_or(true)) {
@@ -83,10 +86,6 @@ private:
         port_.power_off();
         return not_switched_off(stopped());
     }
-    void release() noexcept override { port_.close(); }
-
-    bool may_have_moved_ = false;
-    bool referenced_ = false; // positions of the drives are those of the machine
 };
 
 } // namespace splinefeed::host

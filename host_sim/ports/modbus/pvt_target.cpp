@@ -26,6 +26,7 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescri
     for (const DriveTable::Drive& drive : table.drives) {
         DriveWiring& out = wiring.emplace_back();
         out.link = drive.address.link;
+        out.axis_names = drive.axis_names;
         for (const int axis : drive.machine_axis) {
             const auto k = static_cast<unsigned>(axis);
             out.axes.emplace_back(axis, axis >= 0 && machine.inverted[k]);
@@ -62,9 +63,6 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
 
 PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options)
     : ModbusTarget(std::move(table), machine, options, pvt_wiring) {
-    if (const auto failure = port_.open()) {
-        throw TargetError(drive_sentence(table_, port_, *failure));
-    }
     least_segment_us_ = port_.least_segment_us();
 }
 
@@ -73,33 +71,8 @@ bool PvtTarget::resamples() const noexcept {
                        [](const DriveTable::Drive& drive) { return drive.address.resample; });
 }
 
-std::string drive_sentence(const DriveTable& table, const ModbusPort& port, const DriveFailure& failure) {
-    const DriveReport report = port.report(failure.drive);
-    const DriveTable::Drive& drive = table.drives[failure.drive];
-    std::string text = fmt::format("{}{}: {}", drive.place, drive.name, describe(failure.problem));
-    if (failure.problem == DriveProblem::fault) {
-        const std::size_t axis = report.status.fault_axis;
-        text += fmt::format(", code {} on {}: {}; remove its cause, and run with --reset", report.status.fault,
-                            axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis),
-                            fault_name(report.status.fault));
-    } else if (failure.problem == DriveProblem::unknown_state || failure.problem == DriveProblem::not_standing) {
-        text += fmt::format("; its state is {}", static_cast<unsigned>(report.status.state));
-    } else if (failure.problem == DriveProblem::unreachable) {
-        text += ": " + port.connection_error(failure.drive);
-    } else if (failure.problem == DriveProblem::silent && report.last_fault != LinkFault::none) {
-        text += fmt::format(": {}", describe(report.last_fault, port.wiring(failure.drive).link.wire));
-    }
-    return text;
-}
-
-std::string PvtTarget::fault() const {
-    return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
-}
-
 std::vector<RunTarget::AxisPlace> PvtTarget::standing() {
-    if (const auto failure = port_.await_standstill()) {
-        throw TargetError(drive_sentence(table_, port_, *failure));
-    }
+    require(port_.await_standstill());
     std::vector<AxisPlace> out;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         const DriveWiring& wiring = port_.wiring(i);
@@ -135,11 +108,6 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
         }
     }
     return out;
-}
-
-std::string PvtTarget::prepare_port(const FeedSegment& first) {
-    const auto failure = port_.prepare(first);
-    return failure ? drive_sentence(table_, port_, *failure) + unconfirmed_drives(stopped()) : std::string();
 }
 
 void PvtTarget::describe(Summary& summary) const {

@@ -17,10 +17,6 @@ namespace splinefeed::host {
 /// and the range.
 void check_pvt_range(const MachineDescription& machine, double segment_us);
 
-/// One line: which drive has a problem, and what it is.
-[[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
-                                         const hal::modbus::DriveFailure& failure);
-
 class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
 public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
@@ -36,9 +32,6 @@ public:
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
-    [[nodiscard]] std::string fault() const override;
-
     [[nodiscard]] int counts_of(std::size_t drive, std::size_t drive_axis) const;
 
     double least_segment_us_ = 0.0;

@@ -107,9 +107,6 @@ void check_register_ranges(const DriveTable& table, const MachineDescription& ma
 
 SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options)
     : ModbusTarget(std::move(table), machine, options, target_wiring) {
-    if (const std::string what = port_.open(); !what.empty()) {
-        throw TargetError(sentence(what));
-    }
     const std::uint32_t period_us = port_.period_us();
     for (const DriveTable::Drive& drive : table_.drives) {
         if (!machine.drives_on_at_end.value_or(true) && drive.profile.steps_of(DriveCommand::disable).empty()) {
@@ -140,11 +137,6 @@ std::size_t SetpointTarget::axis_of(std::size_t drive) const noexcept {
     return static_cast<std::size_t>(table_.drives[drive].machine_axis.front());
 }
 
-std::string SetpointTarget::sentence(const std::string& trouble) const {
-    const DriveTable::Drive& drive = table_.drives[port_.trouble_with()];
-    return fmt::format("{}{}: {}", drive.place, drive.name, trouble);
-}
-
 std::string SetpointTarget::note() const {
     double sum_sq = 0.0;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
@@ -157,14 +149,8 @@ std::string SetpointTarget::note() const {
                        port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
 }
 
-std::string SetpointTarget::fault() const {
-    return sentence(port_.trouble()) + unconfirmed_drives(stopped());
-}
-
 std::vector<RunTarget::AxisPlace> SetpointTarget::standing() {
-    if (const std::string what = port_.await_standstill(); !what.empty()) {
-        throw TargetError(sentence(what));
-    }
+    require(port_.await_standstill());
     std::vector<AxisPlace> out;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const auto axis = static_cast<unsigned>(axis_of(i));
@@ -183,15 +169,6 @@ std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {
         out.push_back(counts ? place(i, axis, *counts, online) : AxisPlace{axis, std::nullopt, online});
     }
     return out;
-}
-
-std::string SetpointTarget::prepare_port(const FeedSegment& first) {
-    const std::string what = port_.prepare(first);
-    if (what.empty() || port_.stop_report(0).request == hal::StopRequest::none) {
-        return what.empty() ? what : sentence(what);
-    }
-    const std::string moving = unconfirmed_drives(stopped());
-    return sentence(what) + (moving.empty() ? "; all drives stand" : moving);
 }
 
 void SetpointTarget::describe(Summary& summary) const {

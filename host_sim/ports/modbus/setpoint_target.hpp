@@ -41,10 +41,6 @@ public:
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
-    [[nodiscard]] std::string fault() const override;
-
-    [[nodiscard]] std::string sentence(const std::string& trouble) const;
     [[nodiscard]] std::size_t axis_of(std::size_t drive) const noexcept;
 };
 

@@ -32,7 +32,7 @@ StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& setti
 }
 
 StepPort::~StepPort() {
-    stop();
+    close();
 }
 
 std::string StepPort::start() {
@@ -71,7 +71,12 @@ std::string StepPort::start() {
     return missing_;
 }
 
-void StepPort::stop() noexcept {
+PortFailure StepPort::prepare(const FeedSegment& /*first*/) {
+    static_cast<void>(start());
+    return failure();
+}
+
+void StepPort::close() noexcept {
     ask(end_bit);
     if (thread_) {
         thread_->join();
@@ -79,7 +84,8 @@ void StepPort::stop() noexcept {
     }
 }
 
-void StepPort::park() noexcept {
+void StepPort::power_off() noexcept {
+    close();
     const bool was_off = switched_off(phases_.phase());
     const bool is_on = phases_.phase() != StepPhase::off && !was_off;
     if (!is_on && !may_be_on_.load()) {
@@ -164,7 +170,7 @@ std::uint64_t StepPort::end_ns() const noexcept {
     return submitted_ticks_.load() * ns_per_tick;
 }
 
-int StepPort::do_room() const noexcept {
+int StepPort::room() const noexcept {
     const std::uint64_t most = motion_ns_.load() + buffer_ns();
     return end_ns() > most ? 0 : static_cast<int>(std::min<std::size_t>(edges_.room(), 1));
 }
@@ -177,7 +183,7 @@ bool StepPort::joins(const FeedSegment& segment) const noexcept {
 }
 
 // A segment that does not join would be a jump: the axes stop on the path that they have.
-bool StepPort::do_submit(const FeedSegment& segment) noexcept {
+bool StepPort::submit(const FeedSegment& segment) noexcept {
     if (port_phase(phase_.load()) == PortPhase::fault || halted() || refused_) {
         return false;
     }
@@ -194,7 +200,7 @@ bool StepPort::do_submit(const FeedSegment& segment) noexcept {
 }
 
 // Looks are counted, too: a process that was suspended has had none.
-PortState StepPort::do_poll() noexcept {
+PortState StepPort::poll() noexcept {
     const std::uint64_t now_us = time_->now_us();
     if (const std::uint64_t cycle_us = last_cycle_us(); cycle_us != seen_us_ || !thread_) {
         seen_us_ = cycle_us;

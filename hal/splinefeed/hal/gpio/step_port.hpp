@@ -59,31 +59,32 @@ public:
 
     /// Sets no line and starts no thread.
     StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings);
-    StepPort(const StepPort&) = delete;
-    StepPort& operator=(const StepPort&) = delete;
     ~StepPort();
 
     /// Enables the drives and starts the thread, which waits for segments. A motion that was begun is over. Returns
     /// what the system refused, as claim_real_time(). After disable() or a fault it enables nothing.
     [[nodiscard]] std::string start();
-    /// Declares that no more segments will come: the motion ends with the last one. If that one does not end at rest,
-    /// all axes slow down on the path, and the port is then halted.
-    void complete() noexcept { ask(complete_bit); }
+    /// start(); what the system refused is no failure.
+    [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] int room() const noexcept override;
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
+    void complete() noexcept override { ask(complete_bit); }
+    PortState poll() noexcept override;
+    void halt() noexcept override { quick_stop(); }
     /// Emergency stop: disables the drives and makes no further edge, within slice_ns plus one wake-up and one write of
-    /// lines. Works from start() on, whether axes move or not; between stop() and the next start() that one or park()
-    /// disables them. Callable from any thread and from signal handlers.
+    /// lines. Works from start() on, whether axes move or not; between close() and the next start() that one or
+    /// power_off() disables them. Callable from any thread and from signal handlers.
     void disable() noexcept { ask(disable_bit); }
     /// Slows all axes down on the path, independent of the plan, within twice the reserve. The port is then halted.
     /// Callable from any thread.
-    void quick_stop() noexcept { ask(quick_stop_bit); }
+    void quick_stop() noexcept override { ask(quick_stop_bit); }
     /// Ends the thread; axes that move are stopped as by quick_stop() first. The drives stay enabled, unless disable()
     /// was called or a line could not be set. Blocks for as long as the thread's call that sets lines does.
-    void stop() noexcept;
-    /// Engages the brake, waits until it holds, and disables the drives. start() enables them again. disable() shortens
-    /// the wait.
-    /// @pre stopped
-    void park() noexcept;
-    /// Prepares for another motion, which may begin at any position. @pre stopped
+    void close() noexcept override;
+    /// Ends the thread, engages the brake, waits until it holds, and disables the drives. start() enables them again.
+    /// disable() shortens the wait.
+    void power_off() noexcept override;
+    /// Prepares for another motion, which may begin at any position. @pre closed
     void reset() noexcept;
 
     /// Position of an axis: the sum of its steps. [counts]
@@ -110,9 +111,9 @@ public:
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
     [[nodiscard]] const TimeHistogram& late() const noexcept { return late_; }
     [[nodiscard]] StepPortReport report() const noexcept;
-    /// Why the port stopped the motion by itself; empty: it did not.
-    [[nodiscard]] std::string trouble() const;
-    /// @pre stopped
+    /// Why the port stopped the motion by itself.
+    [[nodiscard]] PortFailure failure() const override { return {trouble()}; }
+    /// @pre closed
     [[nodiscard]] const StepPhases& phases() const noexcept { return phases_; }
 
 private:
@@ -122,11 +123,7 @@ private:
     static constexpr int stall_error = -1; // these are no errno
     static constexpr int overdue_error = -2;
 
-    [[nodiscard]] int do_room() const noexcept override;
-    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
-    PortState do_poll() noexcept override;
-    void do_halt() noexcept override { quick_stop(); }
-
+    [[nodiscard]] std::string trouble() const;
     void ask(unsigned bits) noexcept { requests_.fetch_or(static_cast<std::uint8_t>(bits)); }
     [[nodiscard]] bool asked(unsigned bits) const noexcept { return (requests_.load() & bits) != 0; }
     void take(StepEvent event) noexcept;

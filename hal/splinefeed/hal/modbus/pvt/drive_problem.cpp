@@ -26,6 +26,13 @@ DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexc
     return identity.ticks_per_s != ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
 }
 
+std::string fault_text(const PvtStatus& status, const std::vector<std::string>& axis_names) {
+    const std::size_t axis = status.fault_axis;
+    return "code " + std::to_string(status.fault) + " on " +
+           (axis < axis_names.size() ? axis_names[axis] : "its axis " + std::to_string(axis)) + ": " +
+           fault_name(status.fault);
+}
+
 const char* describe(DriveProblem problem) noexcept {
     switch (problem) {
     case DriveProblem::none: return "nothing is wrong";

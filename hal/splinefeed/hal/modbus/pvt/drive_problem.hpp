@@ -4,6 +4,9 @@
 
 #include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
 
+#include <string>
+#include <vector>
+
 namespace splinefeed::hal::modbus {
 
 /// A permanent problem: the drive gets no more segments until it is opened again.
@@ -39,7 +42,7 @@ enum class DriveProblem : std::uint8_t {
     range,         ///< a position, velocity or duration does not fit the map; nothing of it was sent
 };
 
-/// A problem and the index of its drive.
+/// A problem and the index of its drive; PortFailure says it to the user.
 struct DriveFailure {
     std::size_t drive = 0;
     DriveProblem problem = DriveProblem::none;
@@ -47,6 +50,9 @@ struct DriveFailure {
 
 /// Text for messages: what is wrong and what to check.
 [[nodiscard]] const char* describe(DriveProblem problem) noexcept;
+
+/// "code 3 on axis x: following error". @param axis_names  of the drive's axes; an axis without one has its number
+[[nodiscard]] std::string fault_text(const PvtStatus& status, const std::vector<std::string>& axis_names);
 
 /// Checks whether a drive has a supported version of the map.
 [[nodiscard]] DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexcept;

@@ -64,29 +64,57 @@ void ModbusPort::close() noexcept {
     }
 }
 
-std::optional<DriveFailure> ModbusPort::open() {
+PortFailure ModbusPort::failed(const DriveFailure& failure) {
+    failure_ = failure;
+    return this->failure();
+}
+
+PortFailure ModbusPort::failure() const {
+    if (!failure_) {
+        return {};
+    }
+    const auto [drive, problem] = *failure_;
+    const DriveReport report = this->report(drive);
+    const std::string what = describe(problem);
+    switch (problem) {
+    case DriveProblem::fault:
+        return {what + ", " + fault_text(report.status, wiring(drive).axis_names), drive, Remedy::reset};
+    case DriveProblem::unknown_state:
+    case DriveProblem::not_standing:
+        return {what + "; its state is " + std::to_string(static_cast<unsigned>(report.status.state)), drive};
+    case DriveProblem::unreachable: return {what + ": " + drives_[drive].client().link().error(), drive};
+    case DriveProblem::silent:
+        return {report.last_fault == LinkFault::none
+                    ? what
+                    : what + ": " + describe(report.last_fault, wiring(drive).link.wire),
+                drive};
+    default: return {what, drive};
+    }
+}
+
+PortFailure ModbusPort::open() {
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const auto axes = static_cast<int>(drives_[i].wiring().axes.size());
         if (const DriveProblem problem = drives_[i].client().open(axes); problem != DriveProblem::none) {
-            return DriveFailure{i, problem};
+            return failed({i, problem});
         }
     }
     return find_other_master();
 }
 
 // The nonce of a drive changes with every block that it gets, and this port has sent none.
-std::optional<DriveFailure> ModbusPort::find_other_master() {
+PortFailure ModbusPort::find_other_master() {
     settings_.clock->sleep_us(watch_us);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const std::uint16_t nonce = drives_[i].client().report().status.nonce;
         if (const DriveProblem problem = drives_[i].client().read_status(); problem != DriveProblem::none) {
-            return DriveFailure{i, problem};
+            return failed({i, problem});
         }
         if (drives_[i].client().report().status.nonce != nonce) {
-            return DriveFailure{i, DriveProblem::busy};
+            return failed({i, DriveProblem::busy});
         }
     }
-    return std::nullopt;
+    return {};
 }
 
 double ModbusPort::least_segment_us() {
@@ -121,12 +149,12 @@ void ModbusPort::set_times(const FeedSegment& first) noexcept {
     phases_.set_bounds(modbus_phase_bounds(phase_times_));
 }
 
-std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
+PortFailure ModbusPort::prepare(const FeedSegment& first) {
     set_times(first);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const auto reserve_ms = static_cast<std::uint16_t>(times_.reserve_us / 1000.0);
         if (const DriveProblem problem = drives_[i].prepare(first, reserve_ms); problem != DriveProblem::none) {
-            return DriveFailure{i, problem};
+            return failed({i, problem});
         }
     }
     for (const auto& bus : buses_) {
@@ -143,7 +171,7 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
         executed_to_ = settings_.first_sequence;
         phases_.progress(now_us_);
     }
-    return failure;
+    return failure ? failed(*failure) : PortFailure{};
 }
 
 std::optional<DriveFailure> ModbusPort::make_ready() {
@@ -166,7 +194,7 @@ std::optional<DriveFailure> ModbusPort::make_ready() {
     return failure;
 }
 
-std::optional<DriveFailure> ModbusPort::await_standstill() {
+PortFailure ModbusPort::await_standstill() {
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         PvtClient& client = drives_[i].client();
         DriveProblem problem = DriveProblem::silent;
@@ -179,13 +207,13 @@ std::optional<DriveFailure> ModbusPort::await_standstill() {
             return problem == DriveProblem::none;
         };
         if (wait_until(*settings_.clock, stands, settings_.away_us, "") != nullptr) {
-            return DriveFailure{i, problem};
+            return failed({i, problem});
         }
         if (client.report().status.state == PvtState::fault && !settings_.reset) {
-            return DriveFailure{i, DriveProblem::fault};
+            return failed({i, DriveProblem::fault});
         }
     }
-    return std::nullopt;
+    return {};
 }
 
 std::optional<std::int32_t> ModbusPort::known_position(std::size_t drive, std::size_t axis) const noexcept {
@@ -214,7 +242,7 @@ std::uint32_t ModbusPort::executed() const noexcept {
     return least;
 }
 
-int ModbusPort::do_room() const noexcept {
+int ModbusPort::room() const noexcept {
     std::size_t room = PvtClient::queue_capacity;
     for (const PortDrive& drive : drives_) {
         const std::size_t held = PvtClient::queue_capacity - drive.client().room();
@@ -223,7 +251,7 @@ int ModbusPort::do_room() const noexcept {
     return phase() == ModbusPhase::fault || phase() == ModbusPhase::halted ? 0 : static_cast<int>(room);
 }
 
-bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
+bool ModbusPort::submit(const FeedSegment& segment) noexcept {
     if (phase() == ModbusPhase::fault || phase() == ModbusPhase::halting || phase() == ModbusPhase::halted) {
         return false;
     }
@@ -275,7 +303,7 @@ void ModbusPort::begin_stop(StopRequest request) noexcept {
 void ModbusPort::await_stop() noexcept {
     while (phase() == ModbusPhase::halting) {
         settings_.clock->sleep_us(poll_interval_us);
-        do_poll();
+        poll();
     }
 }
 
@@ -292,7 +320,7 @@ std::size_t ModbusPort::unconfirmed() const noexcept {
     return i;
 }
 
-PortState ModbusPort::do_poll() noexcept {
+PortState ModbusPort::poll() noexcept {
     update_drives();
     if (const auto event = look()) {
         take(*event);
@@ -329,7 +357,7 @@ void ModbusPort::power_off() noexcept {
     await_stop();
 }
 
-void ModbusPort::do_halt() noexcept {
+void ModbusPort::halt() noexcept {
     if (phase() != ModbusPhase::fault && phase() != ModbusPhase::done) {
         begin_stop(StopRequest::hold);
     }

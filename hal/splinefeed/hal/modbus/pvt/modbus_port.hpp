@@ -8,8 +8,6 @@
 #include "splinefeed/hal/modbus/pvt/pvt_group_stop.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 
-#include <optional>
-
 namespace splinefeed::hal::modbus {
 
 struct ModbusPortSettings {
@@ -30,13 +28,10 @@ class ModbusPort final : public MotionPort {
 public:
     /// Makes one bus for each wire. Constructor, open() and prepare() allocate; submit(), poll() and halt() do not.
     ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings);
-    ModbusPort(const ModbusPort&) = delete;
-    ModbusPort& operator=(const ModbusPort&) = delete;
     ~ModbusPort();
 
-    /// Connects to all drives, checks their identity and that no other program uses them. Only reads. Returns the first
-    /// failure.
-    [[nodiscard]] std::optional<DriveFailure> open();
+    /// Checks the identity of all drives, and that no other program uses them. Only reads.
+    [[nodiscard]] PortFailure open() override;
     /// Shortest segment duration that every bus can carry, measured now. [us] Call between open() and prepare().
     [[nodiscard]] double least_segment_us();
     /// Reads a drive's status once. Call between open() and prepare().
@@ -44,38 +39,36 @@ public:
     /// Waits until no drive moves, so that report() has where it stands. Sends no command, so nothing changes. Returns
     /// the first drive that goes on moving, does not answer, or is in a fault that prepare() will not reset. Call
     /// between open() and prepare().
-    [[nodiscard]] std::optional<DriveFailure> await_standstill();
+    [[nodiscard]] PortFailure await_standstill();
     /// Whether the positions that a drive reports are those of a machine: since its power-up a run has set them.
     /// Otherwise they count from anywhere. Before prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return report(drive).status.executed != 0; }
     /// Enables all drives, homes them if set, and presets their positions to first.start, where the motion begins.
-    [[nodiscard]] std::optional<DriveFailure> prepare(const FeedSegment& first);
-    /// Every axis stops as hard as it can and leaves the path; takes precedence over other commands. Ends like halt(),
-    /// when every drive has confirmed its stop or its time is over: stop_report().
-    void quick_stop() noexcept;
-    /// Switches the power of every drive off and waits until each has confirmed it or its time is over: stop_report().
-    /// @pre the drives stand
-    void power_off() noexcept;
+    [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] int room() const noexcept override;
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
+    void complete() noexcept override { complete_ = true; }
+    PortState poll() noexcept override;
+    /// A stop is over when every drive has confirmed it or its time is over: stop_report().
+    void halt() noexcept override;
+    void quick_stop() noexcept override;
+    void power_off() noexcept override;
+    void close() noexcept override;
+    [[nodiscard]] PortFailure failure() const override;
     /// State of a drive's stop after halt(), quick_stop() or a fault of the port. No stop requested: StopRequest::none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.sequence().report(drive); }
     /// Longest duration of a stop, whether the drives answer or not; a drive that brakes needs longer. [us] After
     /// prepare().
     [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
-    /// Declares that no more segments will come.
-    void complete() noexcept { complete_ = true; }
 
     [[nodiscard]] ModbusPhase phase() const noexcept { return phases_.phase(); }
     [[nodiscard]] const ModbusPhases& phases() const noexcept { return phases_; }
+    /// prepare() succeeded: positions of the drives are those of the machine.
+    [[nodiscard]] bool referenced() const noexcept { return referenced_; }
     /// Position of a drive's axis [counts]; nothing: its reference was not set in this session, or was lost since.
     [[nodiscard]] std::optional<std::int32_t> known_position(std::size_t drive, std::size_t axis) const noexcept;
-    /// Cause of the fault, or of a rejected segment.
-    [[nodiscard]] const std::optional<DriveFailure>& failure() const noexcept { return failure_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] const DriveWiring& wiring(std::size_t drive) const noexcept { return drives_[drive].wiring(); }
-    /// Why there is no connection to a drive (DriveProblem::unreachable), and what to do.
-    [[nodiscard]] std::string connection_error(std::size_t drive) const {
-        return drives_[drive].client().link().error();
-    }
     [[nodiscard]] DriveReport report(std::size_t drive) const noexcept { return drives_[drive].client().report(); }
     /// Largest uncertainty of a drive's clock at any start: the drive may be ahead or behind by this. [us]
     [[nodiscard]] double clock_uncertainty_us(std::size_t drive) const noexcept {
@@ -85,17 +78,11 @@ public:
     [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
     /// Processor time of all bus threads. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept;
-    /// Holds the drives if they move, then ends the threads. The drives stay enabled.
-    void close() noexcept;
 
 private:
-    [[nodiscard]] int do_room() const noexcept override;
-    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
-    PortState do_poll() noexcept override;
-    void do_halt() noexcept override;
-
     void update_drives() noexcept;
-    [[nodiscard]] std::optional<DriveFailure> find_other_master();
+    [[nodiscard]] PortFailure failed(const DriveFailure& failure);
+    [[nodiscard]] PortFailure find_other_master();
     void set_times(const FeedSegment& first) noexcept;
     [[nodiscard]] std::optional<DriveFailure> make_ready();
     void take(ModbusEvent event) noexcept;

@@ -18,6 +18,7 @@ struct DriveWiring {
     std::optional<std::uint16_t> watchdog_ms = 1000; ///< empty: the drive keeps its setting
     std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: no check; empty: the drive keeps its setting
     bool both_in_one = true;                         ///< it supports function 23
+    std::vector<std::string> axis_names{};           ///< for PortFailure
 };
 
 class PortDrive {

@@ -41,7 +41,7 @@ SetpointGroup::SetpointGroup(const std::vector<SetpointWiring>& wiring, const Se
     }
 }
 
-DriveTrouble SetpointGroup::open() {
+PortFailure SetpointGroup::open() {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         if (std::string what = drive(i).open(); !what.empty()) {
             return {what, i};
@@ -53,7 +53,7 @@ DriveTrouble SetpointGroup::open() {
     return {};
 }
 
-DriveTrouble SetpointGroup::await_standstill() const {
+PortFailure SetpointGroup::await_standstill() const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         Standstill still(std::llround(tolerance_counts(i) * (1 << physical_bits)));
         std::string why;
@@ -72,18 +72,18 @@ DriveTrouble SetpointGroup::await_standstill() const {
             return {why, i};
         }
         if (drive(i).reading().state == DriveState::fault && !settings_->reset) {
-            return {unready_sentence(drive(i).reading()), i};
+            return {fault_sentence(drive(i).reading()), i, Remedy::reset};
         }
     }
     return {};
 }
 
-DriveTrouble SetpointGroup::configure() {
-    DriveTrouble trouble;
+PortFailure SetpointGroup::configure() {
+    PortFailure trouble;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const SetpointWiring& wiring = slots_[i].wiring;
         if (settings_->home && wiring.profile->steps_of(DriveCommand::home).empty()) {
-            trouble = {"its profile has no home command; omit --home, or home it by its own means", i};
+            trouble = {"its profile has no home command; home it by its own means", i, Remedy::omit_home};
         }
         drive(i).configure({.axis = wiring.axis,
                             .period_us = period_us_,
@@ -96,8 +96,8 @@ DriveTrouble SetpointGroup::configure() {
 }
 
 // Enables all drives before the first one is homed.
-DriveTrouble SetpointGroup::make_ready(const FeedSegment& first) {
-    if (DriveTrouble trouble = configure(); !trouble.what.empty()) {
+PortFailure SetpointGroup::make_ready(const FeedSegment& first) {
+    if (PortFailure trouble = configure()) {
         return trouble;
     }
     SetpointStandby standby(settings_->away_us);
@@ -116,7 +116,7 @@ DriveTrouble SetpointGroup::make_ready(const FeedSegment& first) {
                                            }});
             if (std::string what = enabled ? setup.begin() : setup.enable(); !what.empty()) {
                 slot.homing = setup.homing();
-                return {what, elsewhere ? standby.troubled() : i};
+                return {what, elsewhere ? standby.troubled() : i, setup.needs_reset() ? Remedy::reset : Remedy::none};
             }
             const std::int64_t start = first.start[static_cast<std::size_t>(slot.wiring.axis)];
             if (!enabled) {
@@ -165,7 +165,7 @@ std::optional<std::size_t> SetpointGroup::convert(FeedSegment& segment) noexcept
     return std::nullopt;
 }
 
-DriveTrouble SetpointGroup::watch(std::uint64_t began_us) {
+PortFailure SetpointGroup::watch(std::uint64_t began_us) {
     const std::uint64_t now_us = settings_->clock->now_us();
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         if (std::string what = slots_[i].watch.trouble(report(i), now_us, settings_->away_us, began_us);

@@ -6,6 +6,7 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_stop.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_watch.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_wiring.hpp"
+#include "splinefeed/hal/port_failure.hpp"
 
 namespace splinefeed::hal::modbus {
 
@@ -21,12 +22,6 @@ struct SetpointPortSettings {
     Clock* clock = &system_clock(); ///< must outlive the port
 };
 
-/// What is wrong with a drive of a group; `what` is empty: nothing.
-struct DriveTrouble {
-    std::string what;
-    std::size_t drive = 0;
-};
-
 /// For one thread; the buses have threads of their own between start() and stop().
 class SetpointGroup {
 public:
@@ -34,15 +29,15 @@ public:
     SetpointGroup(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings);
 
     /// Connects to all drives and checks them against their profiles. Nothing moves.
-    [[nodiscard]] DriveTrouble open();
+    [[nodiscard]] PortFailure open();
     /// SetpointPort::await_standstill(), placed(). @pre open, not started
-    [[nodiscard]] DriveTrouble await_standstill() const;
+    [[nodiscard]] PortFailure await_standstill() const;
     [[nodiscard]] bool placed(std::size_t i) const noexcept {
         return slots_[i].wiring.profile->keeps_homed() && drive(i).reading().homed;
     }
     /// Enables all drives, homes them if set, and maps their positions to the start of the first segment. Blocks.
     /// @pre open, not started
-    [[nodiscard]] DriveTrouble make_ready(const FeedSegment& first);
+    [[nodiscard]] PortFailure make_ready(const FeedSegment& first);
     /// Starts the buses' threads. `motion` must outlive them.
     void start(SetpointMotion& motion);
     void stop() noexcept;
@@ -68,7 +63,7 @@ public:
     /// unchanged, and that drive is returned.
     [[nodiscard]] std::optional<std::size_t> convert(FeedSegment& segment) noexcept;
     /// The first drive that does not follow, by its reports. @param began_us  start of the motion
-    [[nodiscard]] DriveTrouble watch(std::uint64_t began_us);
+    [[nodiscard]] PortFailure watch(std::uint64_t began_us);
     /// The first drive that has not answered since that instant, is not on the path or, with blocks, does not stand;
     /// empty: there is none.
     [[nodiscard]] std::optional<std::size_t> not_ready(std::uint64_t since_us) const noexcept;
@@ -101,7 +96,7 @@ private:
         bool homing = false;
     };
 
-    [[nodiscard]] DriveTrouble configure();
+    [[nodiscard]] PortFailure configure();
 
     const SetpointPortSettings* settings_;
     std::vector<std::unique_ptr<SetpointBus>> buses_;

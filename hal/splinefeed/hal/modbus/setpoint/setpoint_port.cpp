@@ -30,14 +30,12 @@ SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const Setp
     : settings_(settings), motion_(0, settings.reserve_us), group_(wiring, settings_), facts_(wiring.size()),
       stop_(wiring.size(), {}) {}
 
-std::string SetpointPort::open() {
-    trouble_ = group_.open();
-    return trouble_.what;
+PortFailure SetpointPort::open() {
+    return trouble_ = group_.open();
 }
 
-std::string SetpointPort::await_standstill() {
-    trouble_ = group_.await_standstill();
-    return trouble_.what;
+PortFailure SetpointPort::await_standstill() {
+    return trouble_ = group_.await_standstill();
 }
 
 LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
@@ -45,13 +43,14 @@ LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
     return group_.drive(drive).last_answer();
 }
 
-std::string SetpointPort::prepare(const FeedSegment& first) {
-    DriveTrouble trouble = group_.make_ready(first);
+PortFailure SetpointPort::prepare(const FeedSegment& first) {
+    PortFailure trouble = group_.make_ready(first);
     set_times();
     make_room(first);
     group_.start(motion_);
     began_us_ = bounded_us_ = settings_.clock->now_us();
-    if (trouble.what.empty()) {
+    referenced_ = !trouble;
+    if (referenced_) {
         return {};
     }
     fail(std::move(trouble));
@@ -61,7 +60,7 @@ std::string SetpointPort::prepare(const FeedSegment& first) {
         }
     }
     await_stop();
-    return trouble_.what;
+    return trouble_;
 }
 
 void SetpointPort::set_times() {
@@ -104,7 +103,7 @@ void SetpointPort::close() noexcept {
     group_.stop();
 }
 
-int SetpointPort::do_room() const noexcept {
+int SetpointPort::room() const noexcept {
     if (!accepts_segments()) {
         return 0;
     }
@@ -116,7 +115,7 @@ int SetpointPort::do_room() const noexcept {
     return static_cast<int>(std::min<std::uint64_t>(room, motion_.trajectory.room()));
 }
 
-bool SetpointPort::do_submit(const FeedSegment& segment) noexcept {
+bool SetpointPort::submit(const FeedSegment& segment) noexcept {
     if (!accepts_segments()) {
         return false;
     }
@@ -147,7 +146,7 @@ void SetpointPort::begin_stop(StopRequest request, Event reason) noexcept {
     phases_.progress(now);
 }
 
-void SetpointPort::fail(DriveTrouble&& trouble) noexcept {
+void SetpointPort::fail(PortFailure&& trouble) noexcept {
     trouble_ = std::move(trouble);
     begin_stop(StopRequest::hold, Event::trouble);
 }
@@ -182,7 +181,7 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
         }
     }
     if (stop_.settled()) {
-        static_cast<void>(phases_.take(trouble_.what.empty() ? Event::settles : Event::fails, now_us));
+        static_cast<void>(phases_.take(trouble_ ? Event::fails : Event::settles, now_us));
     }
 }
 
@@ -284,7 +283,7 @@ void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
     bounded_time_us_ = reached_us;
     const char* const late = phases_.overdue(now_us);
     if (late != nullptr && phase == Phase::ending) {
-        if (trouble_.what.empty()) { // a fault without a sentence would be a run that ended well
+        if (!trouble_) { // a fault without a sentence would be a run that ended well
             std::size_t moving = 0;
             while (moving + 1 < facts_.size() && stop_.report(moving).state == StopState::confirmed) {
                 ++moving;
@@ -307,10 +306,10 @@ void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
     }
 }
 
-PortState SetpointPort::do_poll() noexcept {
+PortState SetpointPort::poll() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     if (!stop_.requested() && phases_.phase() != Phase::done) {
-        if (DriveTrouble trouble = group_.watch(began_us_); !trouble.what.empty()) {
+        if (PortFailure trouble = group_.watch(began_us_)) {
             fail(std::move(trouble));
         }
     }
@@ -327,7 +326,7 @@ PortState SetpointPort::do_poll() noexcept {
     return {phase, executed()};
 }
 
-void SetpointPort::do_halt() noexcept {
+void SetpointPort::halt() noexcept {
     if (accepts_segments() || phases_.phase() == Phase::arriving) {
         begin_stop(StopRequest::hold);
     }

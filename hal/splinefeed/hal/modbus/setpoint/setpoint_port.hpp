@@ -13,36 +13,35 @@ class SetpointPort final : public MotionPort {
 public:
     /// Makes one bus for each wire. Constructor, open() and prepare() allocate; submit(), poll() and halt() do not.
     SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings);
-    SetpointPort(const SetpointPort&) = delete;
-    SetpointPort& operator=(const SetpointPort&) = delete;
     ~SetpointPort() { close(); }
 
-    /// Connects to all drives and checks them against their profiles. Nothing moves. Returns what is wrong with drive
-    /// trouble_with(); empty: nothing.
-    [[nodiscard]] std::string open();
+    /// Checks the drives against their profiles.
+    [[nodiscard]] PortFailure open() override;
     /// Period of the targets: the shortest that all wires and drives support. [us] After open().
     [[nodiscard]] std::uint32_t period_us() const noexcept { return group_.period_us(); }
     /// Reads the next status frame of a drive. Call between open() and prepare().
     LinkAnswer probe(std::size_t drive) noexcept;
     /// Waits until no drive moves, so that standing_counts() has where it stands. Sends no command, so nothing changes.
-    /// Returns what is wrong with drive trouble_with(): it goes on moving, does not answer, or is in a fault that
-    /// prepare() will not reset; empty: nothing. Call between open() and prepare().
-    [[nodiscard]] std::string await_standstill();
+    /// Returns the first drive that goes on moving, does not answer, or is in a fault that prepare() will not reset.
+    /// Call between open() and prepare().
+    [[nodiscard]] PortFailure await_standstill();
     /// Whether the drive says that it has its reference: then its counts are those of the machine's axis. Before
     /// prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return group_.placed(drive); }
-    /// Enables all drives and maps their positions to the start of the first segment. Returns what is wrong; empty:
-    /// nothing. If something is wrong all drives were stopped by then: a drive that was homing by a quick stop,
-    /// the others by a hold. Or it is known that they did not confirm it: stop_report().
-    [[nodiscard]] std::string prepare(const FeedSegment& first);
-    /// Declares that no more segments will come. If the last one ends in motion, all drives stop on the path: halt().
-    void complete() noexcept;
-    /// Every axis stops as hard as its drive can and leaves the path. Ends like halt(), when every drive has confirmed
-    /// its stop or its time is over: stop_report().
-    void quick_stop() noexcept;
-    /// Switches the power of every drive off and waits until each has confirmed it or its time is over: stop_report().
-    /// @pre the drives stand
-    void power_off() noexcept;
+    /// Enables all drives and maps their positions to the start of the first segment. If something is wrong all drives
+    /// were stopped by then: a drive that was homing by a quick stop, the others by a hold. Or it is known that they
+    /// did not confirm it: stop_report().
+    [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] int room() const noexcept override;
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
+    void complete() noexcept override;
+    PortState poll() noexcept override;
+    /// A stop is over when every drive has confirmed it or its time is over: stop_report().
+    void halt() noexcept override;
+    void quick_stop() noexcept override;
+    void power_off() noexcept override;
+    void close() noexcept override;
+    [[nodiscard]] PortFailure failure() const override { return trouble_; }
     /// State of a drive's stop after halt(), quick_stop() or a fault of the port. No stop requested: StopRequest::none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
     /// Longest duration of a stop, whether the drives answer or not. [us] After prepare().
@@ -50,9 +49,6 @@ public:
         return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
     }
 
-    /// Cause of the fault or of a rejected segment, and the index of its drive.
-    [[nodiscard]] const std::string& trouble() const noexcept { return trouble_.what; }
-    [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_.drive; }
     [[nodiscard]] std::size_t drives() const noexcept { return group_.size(); }
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept { return group_.report(drive); }
     /// What the drive reports, in its own counts. Before prepare().
@@ -65,6 +61,8 @@ public:
     }
     /// Statistics of its exchanges. Before prepare().
     [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept { return group_.drive(drive).counts(); }
+    /// prepare() succeeded: positions of the drives are those of the machine.
+    [[nodiscard]] bool referenced() const noexcept { return referenced_; }
     /// Reported position of a drive, in counts of the machine's axis; empty: it is not known which position of the axis
     /// that is, since prepare() has not come so far. After prepare().
     [[nodiscard]] std::optional<double> position_counts(std::size_t drive) const noexcept {
@@ -83,8 +81,6 @@ public:
     /// Number of times that all drives stopped because of late targets and resumed.
     [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return group_.busy_us(); }
-    /// Holds the drives if they move, then ends the threads.
-    void close() noexcept;
     /// What the port has been through.
     [[nodiscard]] const SetpointPhases& phases() const noexcept { return phases_; }
 
@@ -94,15 +90,10 @@ private:
     /// What is true at a poll, whatever the phase.
     using Facts = std::array<bool, SetpointPhases::events>;
 
-    [[nodiscard]] int do_room() const noexcept override;
-    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
-    PortState do_poll() noexcept override;
-    void do_halt() noexcept override;
-
     void set_times();
     void make_room(const FeedSegment& first);
     void begin_stop(StopRequest request, Event reason = Event::stop) noexcept;
-    void fail(DriveTrouble&& trouble) noexcept;
+    void fail(PortFailure&& trouble) noexcept;
     void follow_stop(std::uint64_t now_us) noexcept;
     void await_stop() noexcept;
     void follow_clock(std::uint64_t now_us) noexcept;
@@ -124,7 +115,7 @@ private:
     StopSequence stop_;
     StopTimes stop_times_;
     std::uint64_t stop_began_us_ = 0;
-    DriveTrouble trouble_;
+    PortFailure trouble_;
     std::size_t awaited_ = 0; // the drive that was found last not to be ready, or not to have arrived
     SetpointPhases phases_{setpoint_table(), Phase::filling};
     std::uint64_t began_us_ = 0;         // when the bus threads started; 0: not yet
@@ -136,7 +127,8 @@ private:
     std::uint64_t lag_us_ = 0;           // how much longer it takes than it may, because of late targets
     std::uint32_t late_stops_ = 0;       // by late targets of any drive
     std::size_t latest_ = 0;             // the drive whose targets were late most often
-    bool late_ = false;                  // the last stop was because of late targets
+    bool referenced_ = false;
+    bool late_ = false; // the last stop was because of late targets
     std::uint64_t submitted_ = 0;
     std::uint64_t segment_ticks_ = 1;
     std::uint32_t resumes_ = 0;

@@ -89,7 +89,8 @@ std::string SetpointSetup::leave_old_state() {
     }
     if (drive_->reading().state == DriveState::fault) {
         if (!options_.reset) {
-            return unready_sentence(drive_->reading());
+            needs_reset_ = true;
+            return fault_sentence(drive_->reading());
         }
         if (!command(DriveCommand::fault_reset)) {
             return failed("its fault cannot be reset");

@@ -29,6 +29,8 @@ public:
     [[nodiscard]] std::string begin();
     /// Whether the drive may move by itself, towards its reference.
     [[nodiscard]] bool homing() const noexcept { return homing_; }
+    /// Whether enable() failed only because the drive is in a fault, which the options do not reset.
+    [[nodiscard]] bool needs_reset() const noexcept { return needs_reset_; }
 
 private:
     [[nodiscard]] bool others_fine();
@@ -47,6 +49,7 @@ private:
     SetupOptions options_;
     std::string trouble_; // of another drive, or of the user
     bool homing_ = false;
+    bool needs_reset_ = false;
 };
 
 } // namespace splinefeed::hal::modbus

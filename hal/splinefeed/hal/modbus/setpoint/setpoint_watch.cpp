@@ -24,10 +24,6 @@ std::string fault_sentence(const DriveReading& reading) {
     return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
 }
 
-std::string unready_sentence(const DriveReading& reading) {
-    return fault_sentence(reading) + ", remove the cause, and run again with --reset";
-}
-
 // A drive that has stopped by itself or lost its power does not follow.
 std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                    std::uint64_t began_us) {

@@ -12,8 +12,6 @@ namespace splinefeed::hal::modbus {
 
 /// "it is in fault, code 7; ..."
 [[nodiscard]] std::string fault_sentence(const DriveReading& reading);
-/// The same of a drive that is not made ready because of it.
-[[nodiscard]] std::string unready_sentence(const DriveReading& reading);
 
 /// Use one for each drive during a motion.
 class SetpointWatch {
