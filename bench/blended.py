@@ -18,7 +18,6 @@ import tempfile
 TOLERANCES_MM = (0.01, 0.05, 0.1)
 MACHINE = """[path]
 max_feed_mm_s = 100
-jerk_plan = "{plan}"
 """ + "".join(f"""[[axis]]
 name = "{axis}"
 max_velocity_mm_s = 100
@@ -56,11 +55,25 @@ def blended(points, tolerance_mm):
     return segments + [(here, points[-1])]
 
 
-def seconds(tool, program, plan, folder, *options):
+def seconds(tool, program, folder, *options):
     machine = folder / "machine.toml"
-    machine.write_text(MACHINE.format(plan=plan))
+    machine.write_text(MACHINE)
     command = [tool, "plan", str(program), "--machine", str(machine), "--scalar", "double", "--quiet", "--summary", "json", *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["cycle_time_s"]
+
+
+def row(tool, points, folder, *options):
+    """Times: with a stop at each corner, and within each tolerance."""
+    sharp = folder / "sharp.csv"
+    with open(sharp, "w", encoding="ascii", newline="") as file:
+        csv.writer(file).writerows([(*point, 0.0) for point in points])
+    times = [seconds(tool, sharp, folder, "--curve", "polyline", *options)]
+    for tolerance in TOLERANCES_MM:
+        curve = folder / "blended.json"
+        segments = [{"degree": len(s) - 1, "control_points": [[*p, 0.0] for p in s]} for s in blended(points, tolerance)]
+        curve.write_text(json.dumps({"curve": "bezier", "closed": False, "segments": segments}))
+        times.append(seconds(tool, curve, folder, *options))
+    return times
 
 
 def main():
@@ -72,17 +85,9 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         for name, points in [("star", star())] + [(f"zigzag of {turn} degrees", zigzag(turn)) for turn in (90, 126, 170)]:
-            sharp = folder / "sharp.csv"
-            with open(sharp, "w", encoding="ascii", newline="") as file:
-                csv.writer(file).writerows([(*point, 0.0) for point in points])
-            for plan in ("optimal", "bounded"):
-                row = [seconds(tool, sharp, plan, folder, "--curve", "polyline")]
-                for tolerance in TOLERANCES_MM:
-                    curve = folder / "blended.json"
-                    segments = [{"degree": len(s) - 1, "control_points": [[*p, 0.0] for p in s]} for s in blended(points, tolerance)]
-                    curve.write_text(json.dumps({"curve": "bezier", "closed": False, "segments": segments}))
-                    row.append(seconds(tool, curve, plan, folder))
-                print(f"| {name} | `{plan}` | " + " | ".join(f"{s:.3f}" for s in row) + " |")
+            for scalar in ("double", "float"):
+                times = row(tool, points, folder, "--jerk-scalar", scalar)
+                print(f"| {name} | {scalar} | " + " | ".join(f"{s:.3f}" for s in times) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times with limited jerk, as the tables of docs/explanation/feed.md: of a curve, of random splines, or of splines through unevenly
+"""Cycle times with limited jerk, planned in double and in float, as the tables of docs/explanation/feed.md: of a curve, of random splines, or of splines through unevenly
 spaced points, against the least time
 that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
 import argparse
@@ -19,12 +19,12 @@ from judge import judged_files  # noqa: E402
 from uneven_path import write_uneven_path  # noqa: E402
 
 CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
-TIERS = ("optimal", "bounded")
+SCALARS = ("double", "float")  # of the plan
 
 
-def machine(axes, feed, limits, tier):
+def machine(axes, feed, limits):
     """limits: of each axis, velocity, acceleration and jerk"""
-    text = f'name = "feed.py"\n[path]\nmax_feed_mm_s = {feed}\njerk_plan = "{tier}"\n'
+    text = f'name = "feed.py"\n[path]\nmax_feed_mm_s = {feed}\n'
     for axis, (velocity, acceleration, jerk) in zip(axes, limits):
         text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = {velocity}\nmax_acceleration_mm_s2 = {acceleration}\n'
         text += f"max_jerk_mm_s3 = {jerk}\nsteps_per_mm = 1000\n"
@@ -51,7 +51,7 @@ def least_time(folder):
 def curve_table(tool, curve, folder):
     for feed, acceleration, jerk in CASES:
         limits = [(feed, acceleration, jerk)] * 2
-        times = [seconds(tool, curve, machine("xy", feed, limits, tier), folder, *files(folder)) for tier in TIERS]
+        times = [seconds(tool, curve, machine("xy", feed, limits), folder, "--jerk-scalar", scalar, *files(folder)) for scalar in SCALARS]
         print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} | {:.3f} |".format(feed, acceleration, jerk, *times, least_time(folder)[0]))
 
 
@@ -78,8 +78,8 @@ def random_limits(numbers):
 
 
 def random_table(tool, count, folder):
-    ratios = {tier: [] for tier in TIERS}
-    print("| spline | least | optimal | bounded | A / J of the first axis | jerk use of optimal |\n|---|---|---|---|---|---|")
+    ratios = {scalar: [] for scalar in SCALARS}
+    print("| spline | least | double | float | A / J of the first axis | jerk use in double |\n|---|---|---|---|---|---|")
     for seed in range(1, count + 1):
         numbers = random.Random(seed)
         program = folder / "points.csv"
@@ -87,36 +87,37 @@ def random_table(tool, count, folder):
         program.write_text("x,y,z\n" + "".join(rows))
         feed, limits = random_limits(numbers)
         least, use = 0.0, 0.0
-        for tier in TIERS:
+        for scalar in SCALARS:
             wanted = [] if least else files(folder)
-            time = seconds(tool, program, machine("xyz", feed, limits, tier), folder, "--corner-angle", "180", *wanted)
+            time = seconds(tool, program, machine("xyz", feed, limits), folder, "--jerk-scalar", scalar, "--corner-angle", "180", *wanted)
             if not least:
                 least, use = least_time(folder)
-            ratios[tier].append(time / least)
+            ratios[scalar].append(time / least)
         print("| {} | {:.4f} s | {:.4f} | {:.4f} | {:.0f} ms | {:.4f} |".format(
-            seed, least, *(ratios[tier][-1] for tier in TIERS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
+            seed, least, *(ratios[scalar][-1] for scalar in SCALARS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
     print_ratios(ratios, count)
 
 
 def uneven_table(tool, count, folder):
     """Points 0.02 to 20 mm apart on a smooth curve, on three axes of 100 mm/s, 1000 mm/s^2, 30000 mm/s^3."""
-    ratios = {tier: [] for tier in TIERS}
-    print("| path | least | optimal | bounded |\n|---|---|---|---|")
+    ratios = {scalar: [] for scalar in SCALARS}
+    print("| path | least | double | float |\n|---|---|---|---|")
     for seed in range(1, count + 1):
         program = folder / "points.csv"
         write_uneven_path(program, seed)
-        times = [seconds(tool, program, machine("xyz", 100, [(100, 1000, 30000)] * 3, tier), folder, *files(folder)) for tier in TIERS]
+        times = [seconds(tool, program, machine("xyz", 100, [(100, 1000, 30000)] * 3), folder, "--jerk-scalar", scalar,
+                         *files(folder)) for scalar in SCALARS]
         least, _ = least_time(folder)
-        for tier, time in zip(TIERS, times):
-            ratios[tier].append(time / least)
-        print("| {} | {:.4f} s | {:.4f} | {:.4f} |".format(seed, least, *(ratios[tier][-1] for tier in TIERS)), flush=True)
+        for scalar, time in zip(SCALARS, times):
+            ratios[scalar].append(time / least)
+        print("| {} | {:.4f} s | {:.4f} | {:.4f} |".format(seed, least, *(ratios[scalar][-1] for scalar in SCALARS)), flush=True)
     print_ratios(ratios, count)
 
 
 def print_ratios(ratios, count):
-    for tier in TIERS:
-        ordered = sorted(ratios[tier])
-        print(f"{tier}: median {ordered[count // 2]:.4f}, largest {ordered[-1]:.4f}, "
+    for scalar in SCALARS:
+        ordered = sorted(ratios[scalar])
+        print(f"{scalar}: median {ordered[count // 2]:.4f}, largest {ordered[-1]:.4f}, "
               f"{sum(r <= 1.04 for r in ordered)} of {count} at most 1.04")
 
 

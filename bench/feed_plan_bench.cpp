@@ -8,7 +8,6 @@
 #include "looped_curve.hpp"
 
 #include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
-#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -22,7 +21,7 @@ namespace {
 using namespace splinefeed;
 
 constexpr std::size_t window_cells = 1024; // the tool's default; it gives a quarter of that to the jerk plan
-constexpr std::size_t jerk_cells = window_cells / 4 + JerkWindow<double>::most_spare;
+constexpr std::size_t jerk_cells = window_cells / 4 + JerkWindow<double, double>::most_spare;
 
 constexpr double jerk = 30000.0; // [mm/s^3]
 
@@ -34,9 +33,8 @@ double thread_seconds() {
 
 /// The machine of examples/three_axis.toml, or with a jerk that of examples/jerk_limited.toml.
 template <Scalar S>
-MotionLimits<S> limits(double jerk_mm_s3, JerkTier tier) {
+MotionLimits<S> limits(double jerk_mm_s3) {
     MachineSettings machine;
-    machine.jerk_tier = tier;
     for (AxisSettings& axis : machine.axis) {
         axis.max_jerk_mm_s3 = jerk_mm_s3;
         axis.steps_per_mm = 320.0;
@@ -57,24 +55,16 @@ struct Stages {
     FeedPlan<S> feed_plan;
 };
 
-struct JerkStages : Stages<double> {
-    JerkStages(std::int64_t waypoints, const MotionLimits<double>& machine)
-        : Stages<double>(waypoints, machine), cells(jerk_cells), nodes(jerk_cells + 1), scratch(jerk_cells + 1),
-          plan(feed_plan, machine, JerkStorage<double>{cells, nodes, scratch}) {}
+template <Scalar S, Floating R>
+struct JerkStages : Stages<S> {
+    JerkStages(std::int64_t waypoints, const MotionLimits<S>& machine)
+        : Stages<S>(waypoints, machine), cells(jerk_cells), nodes(jerk_cells + 1), scratch(jerk_cells + 1),
+          plan(this->feed_plan, machine, JerkStorage<S, R>{cells, nodes, scratch}) {}
 
-    std::vector<Cell<double>> cells;
-    std::vector<JerkNode> nodes;
-    std::vector<LegNode<double>> scratch;
-    JerkPlan<double> plan;
-};
-
-template <Scalar S>
-struct SmoothStages : Stages<S> {
-    SmoothStages(std::int64_t waypoints, const MotionLimits<S>& machine)
-        : Stages<S>(waypoints, machine), cells(window_cells), plan(this->feed_plan, machine, cells) {}
-
-    std::vector<SmoothCell<S>> cells;
-    SmoothPlan<S> plan;
+    std::vector<Cell<S>> cells;
+    std::vector<JerkNode<R>> nodes;
+    std::vector<LegNode<R>> scratch;
+    JerkPlan<S, R> plan;
 };
 
 struct Measured {
@@ -95,16 +85,6 @@ Measured drain(ArcLength<S>& arc_length) {
     return out;
 }
 
-template <Scalar S>
-void leave(MotionPlan<S>& /*plan*/) {}
-/// The mean follows at once.
-template <Scalar S>
-void leave(SmoothPlan<S>& plan) {
-    while (plan.can_release()) {
-        plan.release();
-    }
-}
-
 template <class Plan>
 Measured drain_plan(Plan& plan) {
     Measured out;
@@ -113,7 +93,6 @@ Measured drain_plan(Plan& plan) {
         benchmark::DoNotOptimize(plan.profile_segment());
         out.nodes += plan.profile_segment().stretch.to == decltype(plan.profile_segment().stretch.to)(1) ? 1 : 0;
         plan.advance();
-        leave(plan);
     }
     out.seconds = thread_seconds() - start;
     return out;
@@ -140,35 +119,28 @@ void cost_of_a_node(benchmark::State& state, const auto& machine, auto&& before,
 template <Scalar S>
 void feed_plan(benchmark::State& state) {
     cost_of_a_node<Stages<S>>(
-        state, limits<S>(0.0, JerkTier::optimal), [](Stages<S>& stages) { return drain(stages.arc_length); },
+        state, limits<S>(0.0), [](Stages<S>& stages) { return drain(stages.arc_length); },
         [](Stages<S>& stages) { return drain_plan(stages.feed_plan); });
 }
 
-/// Of the tier `bounded`.
-template <Scalar S>
-void smooth_plan(benchmark::State& state) {
-    cost_of_a_node<SmoothStages<S>>(
-        state, limits<S>(jerk, JerkTier::bounded), [](SmoothStages<S>& stages) { return drain_plan(stages.feed_plan); },
-        [](SmoothStages<S>& stages) { return drain_plan(stages.plan); });
-}
-
-/// Of the tier `optimal`.
+template <Scalar S, Floating R>
 void jerk_plan(benchmark::State& state) {
-    cost_of_a_node<JerkStages>(
-        state, limits<double>(jerk, JerkTier::optimal), [](JerkStages& stages) { return drain_plan(stages.feed_plan); },
-        [](JerkStages& stages) { return drain_plan(stages.plan); });
+    using Of = JerkStages<S, R>;
+    cost_of_a_node<Of>(
+        state, limits<S>(jerk), [](Of& stages) { return drain_plan(stages.feed_plan); },
+        [](Of& stages) { return drain_plan(stages.plan); });
 }
 
 /// The longest prepare(), of those that plan: with the half window of cells that the stages before it deliver in it. A
 /// virtual machine that is not served for a moment makes one long; so also what all but one in a thousand stay below.
 void worst_window(benchmark::State& state) {
     constexpr double least = 1e-4; // [s], of a prepare() that plans
-    const auto machine = limits<double>(jerk, JerkTier::optimal);
+    const auto machine = limits<double>(jerk);
     std::vector<double> windows;
     std::uint64_t slow_legs = 0;
     for (auto _ : state) {
-        const auto stages = std::make_unique<JerkStages>(state.range(0), machine);
-        JerkPlan<double>& plan = stages->plan;
+        const auto stages = std::make_unique<JerkStages<double, double>>(state.range(0), machine);
+        JerkPlan<double, double>& plan = stages->plan;
         const double start = thread_seconds();
         for (bool more = true; more;) {
             const double before = thread_seconds();
@@ -219,9 +191,8 @@ void lengths(benchmark::internal::Benchmark* row) {
 // NOLINTBEGIN
 BENCHMARK(feed_plan<double>)->Apply(lengths);
 BENCHMARK(feed_plan<Fixed>)->Apply(lengths);
-BENCHMARK(smooth_plan<double>)->Apply(lengths);
-BENCHMARK(smooth_plan<Fixed>)->Apply(lengths);
-BENCHMARK(jerk_plan)->Apply(lengths);
+BENCHMARK((jerk_plan<double, double>))->Apply(lengths);
+BENCHMARK((jerk_plan<Fixed, float>))->Apply(lengths);
 BENCHMARK(worst_window)->Apply(lengths);
 BENCHMARK(straight_move);
 // NOLINTEND

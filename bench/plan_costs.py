@@ -7,7 +7,6 @@
 Times of a node (the shortest of --repeat runs, one build after the other), bytes of a cell, cycle times over the least time that
 tests/judge finds (needs python3-numpy, python3-scipy), and blended corners against stops. Needs a release build with benchmarks."""
 import argparse
-import csv
 import json
 import pathlib
 import random
@@ -19,14 +18,14 @@ import blended
 import feed
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-TIERS = feed.TIERS
+SCALARS = feed.SCALARS
+OF_NAMES = {"(jerk_plan<double, double>)": "jerk_plan", "(jerk_plan<Fixed, float>)": "jerk_plan float"}
 NODES = [  # what feed_plan_bench calls it, its counter, the unit, what it is called here
     ("feed_plan<double>", "ns_a_node", "ns", "FeedPlan, a node, double"),
     ("feed_plan<Fixed>", "ns_a_node", "ns", "FeedPlan, a node, Fixed"),
-    ("smooth_plan<double>", "ns_a_node", "ns", "`bounded`, a node, double"),
-    ("smooth_plan<Fixed>", "ns_a_node", "ns", "`bounded`, a node, Fixed"),
-    ("jerk_plan", "ns_a_node", "ns", "`optimal`, a node"),
-    ("worst_window", "all_but_0.1%_ms", "ms", "`optimal`, the longest window but for one in 1000"),
+    ("jerk_plan", "ns_a_node", "ns", "JerkPlan, a node, double"),
+    ("jerk_plan float", "ns_a_node", "ns", "JerkPlan, a node, float in Fixed"),
+    ("worst_window", "all_but_0.1%_ms", "ms", "JerkPlan, the longest window but for one in 1000"),
     ("straight_move", "items_per_second", "ns", "straight move in closed form"),
 ]
 
@@ -50,7 +49,8 @@ def node_costs(bench, waypoints):
     found = {}
     for name, counter, _, _ in NODES:
         for row in rows:
-            if row["name"].split("/")[0] == name and counter in row:
+            called = row["name"].split("/")[0]
+            if OF_NAMES.get(called, called) == name and counter in row:
                 found[name] = 1e9 / row[counter] if counter == "items_per_second" else row[counter]
     return found
 
@@ -70,17 +70,23 @@ def node_table(bins, waypoints, repeat):
         print(f"| {title} | " + " | ".join(cells + [f"{least[0][name] / one[name]:.2f}" for one in least[1:]]) + " |", flush=True)
 
 
-def bytes_of_a_cell(tool, folder, tier):
+def bytes_of_a_cell(tool, folder, options):
     """From two windows, so that what does not grow with them does not count."""
     program = folder / "points.csv"
     program.write_text("x,y,z\n0,0,0\n1,2,3\n3,4,1\n")
     file = folder / "machine.toml"
-    file.write_text(feed.machine("xyz", 100, [(100, 1000, 30000)] * 3, tier))
+    file.write_text(feed.machine("xyz", 100, [(100, 1000, 30000)] * 3))
     def used(window):
-        made = subprocess.run([tool, "run", str(program), "-m", str(file), "--window", str(window), "--quiet", "--summary", "json"],
+        made = subprocess.run([tool, "run", str(program), "-m", str(file), "--window", str(window), "--quiet", "--summary", "json", *options],
                               check=True, capture_output=True, text=True).stdout
         return json.loads(made)["memory_bytes"]["feed_plan"]
     return (used(4096) - used(2048)) / 2048
+
+
+def plans(bins):
+    """(name, folder of the tool, its options)"""
+    yield from ((scalar, bins[0], ["--jerk-scalar", scalar]) for scalar in SCALARS)
+    yield from (("base", build, []) for build in bins[1:])
 
 
 def splines(count, folder):
@@ -103,34 +109,23 @@ def ratio_table(bins, count, folder):
     ratios = {}
     for kind, program, limits, options in splines(count, folder):
         least = 0.0
-        for tier in TIERS:
-            for i, build in enumerate(bins):
-                wanted = [] if least else feed.files(folder)
-                time = feed.seconds(str(build / "splinefeed"), program, feed.machine(*limits, tier), folder, *options, *wanted)
-                least = least or feed.least_time(folder)[0]
-                ratios.setdefault((kind, tier, i), []).append(time / least)
-    print("\n| over the least time | plan | now: median | largest |" + (" base: median | largest |" if len(bins) > 1 else ""))
-    print("|---|---|---|---|" + "---|---|" * (len(bins) - 1))
-    for kind, tier in dict.fromkeys((kind, tier) for kind, tier, _ in ratios):
-        row = [ratios[kind, tier, i] for i in range(len(bins))]
-        print(f"| {kind} | `{tier}` | " + " | ".join(f"{statistics.median(r):.4f} | {max(r):.4f}" for r in row) + " |", flush=True)
+        for plan, build, more in plans(bins):
+            wanted = [] if least else feed.files(folder)
+            time = feed.seconds(str(build / "splinefeed"), program, feed.machine(*limits), folder, *options, *more, *wanted)
+            least = least or feed.least_time(folder)[0]
+            ratios.setdefault((kind, plan), []).append(time / least)
+    print("\n| over the least time | plan | median | largest |\n|---|---|---|---|")
+    for (kind, plan), found in ratios.items():
+        print(f"| {kind} | {plan} | {statistics.median(found):.4f} | {max(found):.4f} |", flush=True)
 
 
 def corner_table(bins, folder):
-    print("\n| corners | plan | stops [s] | within [mm] | now [s] |" + (" base [s] |" if len(bins) > 1 else ""))
-    print("|---|---|---|---|---|" + "---|" * (len(bins) - 1))
-    sharp, curve = folder / "sharp.csv", folder / "blended.json"
+    print("\n| corners | plan | stops [s] | " + " | ".join(f"within {t} mm [s]" for t in blended.TOLERANCES_MM) + " |")
+    print("|---|---|---|" + "---|" * len(blended.TOLERANCES_MM))
     for name, points in [("star", blended.star())] + [(f"zigzag of {turn} degrees", blended.zigzag(turn)) for turn in (90, 170)]:
-        with open(sharp, "w", encoding="ascii", newline="") as file:
-            csv.writer(file).writerows([(*point, 0.0) for point in points])
-        for tier in TIERS:
-            machine = blended.MACHINE.format(plan=tier)
-            stops = feed.seconds(str(bins[0] / "splinefeed"), sharp, machine, folder, "--curve", "polyline")
-            for tolerance in blended.TOLERANCES_MM:
-                segments = [{"degree": len(s) - 1, "control_points": [[*p, 0.0] for p in s]} for s in blended.blended(points, tolerance)]
-                curve.write_text(json.dumps({"curve": "bezier", "closed": False, "segments": segments}))
-                times = [feed.seconds(str(build / "splinefeed"), curve, machine, folder) for build in bins]
-                print(f"| {name} | `{tier}` | {stops:.3f} | {tolerance} | " + " | ".join(f"{t:.3f}" for t in times) + " |", flush=True)
+        for plan, build, more in plans(bins):
+            row = blended.row(str(build / "splinefeed"), points, folder, *more)
+            print(f"| {name} | {plan} | " + " | ".join(f"{s:.3f}" for s in row) + " |", flush=True)
 
 
 def main():
@@ -146,9 +141,9 @@ def main():
         node_table(bins, waypoints, arguments.repeat)
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        print("\n| bytes of a cell | " + " | ".join(("now", "base")[:len(bins)]) + " |\n|---|" + "---|" * len(bins))
-        for tier in TIERS:
-            print(f"| `{tier}` | " + " | ".join(f"{bytes_of_a_cell(str(build / 'splinefeed'), folder, tier):.0f}" for build in bins) + " |")
+        print("\n| plan | bytes of a cell |\n|---|---|")
+        for plan, build, more in plans(bins):
+            print(f"| {plan} | {bytes_of_a_cell(str(build / 'splinefeed'), folder, more):.0f} |")
         corner_table(bins, folder)
         ratio_table(bins, arguments.count, folder)
 

@@ -91,7 +91,7 @@ def main():
             pathlib.Path(file).write_text(machine_text("xy", feed, acceleration), encoding="ascii")
             table(args.tool, work, f"butterfly.json, {feed} mm/s, {acceleration} mm/s^2", "butterfly.json", [], file)
     print("\n## Within a tolerance, three axes, 100 mm/s, 1000 mm/s^2 each, 1 ms\n\nOf `bench/tolerance.py --judge`: `acc` without a jerk"
-          " limit, `optimal` and `bounded` with 30000 mm/s^3. Goals stand in parentheses;\n! marks one that was missed, ^ a time above the"
+          " limit, `jerk` with 30000 mm/s^3. Goals stand in parentheses;\n! marks one that was missed, ^ a time above the"
           " estimate with exact stops. Pictures and reasons: [tolerance](../explanation/tolerance.md).\n", flush=True)
     subprocess.run(["/usr/bin/python3", os.path.join(ROOT, "bench/tolerance.py"), "--tool", args.tool, "--judge"], check=True)
 

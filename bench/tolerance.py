@@ -4,7 +4,7 @@
 
     /usr/bin/python3 bench/tolerance.py [--tool build/release/bin/splinefeed] [--only NAME...] [--judge] [--goals] [--write FOLDER]
 
-100 mm/s, 1000 mm/s^2 for each axis, a sample period of 1 ms; `acc` without a jerk limit, `optimal` and `bounded` with 30000 mm/s^3.
+100 mm/s, 1000 mm/s^2 for each axis, a sample period of 1 ms; `acc` without a jerk limit, `jerk` with 30000 mm/s^3.
 A goal is beside its time, with ! where the time is above it. `stop` is the estimate with a stop at each element; a time above it
 has a ^. With --judge, which needs python3-numpy and python3-scipy, tests/judge looks at every run with `acc`, too. --write keeps the
 programs. Exit status 1 where a tolerance was not kept or, with --goals, a goal was missed."""
@@ -18,8 +18,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 EXAMPLES = ROOT / "examples"
-PLANS = ("acc", "optimal", "bounded")
-# (program, tolerance): what acc and optimal are to take at most [s].
+PLANS = ("acc", "jerk")
+# (program, tolerance): what acc and jerk are to take at most [s].
 GOALS = {("square", 0.05): (4.37, 4.46), ("star", 0.01): (5.70, 6.30), ("star", 0.05): (5.66, 5.95), ("circle720", 0.01): (1.36, 1.41),
          ("zigzag", 0.05): (3.00, 3.22), ("line_arc_10", 0.001): (None, 0.79), ("line_arc_10", 0.01): (None, 0.71),
          ("wavy", 0.01): (0.64, 0.69), ("contour", 0.01): (1.08, 1.13), ("raster", 0.01): (2.78, 3.10)}
@@ -30,7 +30,7 @@ FEWER_PIECES = {("wavy", 0.01): 0.1, ("contour", 0.01): 0.1}  # of the elements
 
 
 def machine(plan):
-    text = f'[path]\nmax_feed_mm_s = 100\njerk_plan = "{"bounded" if plan == "bounded" else "optimal"}"\n'
+    text = "[path]\nmax_feed_mm_s = 100\n"
     for axis in "xyz":
         text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n'
         text += "" if plan == "acc" else "max_jerk_mm_s3 = 30000\n"
@@ -150,12 +150,12 @@ def table_rows(name, program, options, folder, tolerances):
     for tolerance in tolerances:
         goals = GOALS.get((name, tolerance), (None, None))
         cells, found = [], None
-        for plan, goal in zip(PLANS, (*goals, None)):
+        for plan, goal in zip(PLANS, goals):
             summary = run(tool, program, tolerance, plan, folder, judge and plan == "acc")
             if summary is None:
                 return False
             kept = summary["tolerance"]
-            found = kept if plan == "optimal" else found  # `bounded` stops at sharper corners
+            found = kept
             cells.append(cell(summary["cycle_time_s"], goal, kept["exact_stop_time_s"]) + f" of {kept['exact_stop_time_s']:.3f}")
             cells[-1] += "" if kept["kept"] else " NOT KEPT"
             well = well and kept["kept"] and not (options.goals and goal is not None and summary["cycle_time_s"] > goal)
@@ -184,7 +184,7 @@ def main():
     if options.judge and subprocess.run(["/usr/bin/python3", "-c", "import numpy"], capture_output=True, check=False).returncode != 0:
         print("SKIPPED: the judge needs numpy (Debian: apt-get install python3-numpy)")
         sys.exit(77)
-    print("| program | tolerance [mm] | acc of stop [s] | optimal of stop [s] | bounded of stop [s] | LinuxCNC 2.9 [s] | `optimal`: "
+    print("| program | tolerance [mm] | acc of stop [s] | jerk of stop [s] | LinuxCNC 2.9 [s] | `jerk`: "
           "elements to pieces | rounded, stops | deviation [mm] |\n|---|---|---|---|---|---|---|---|---|")
     well = True
     with tempfile.TemporaryDirectory() as folder:

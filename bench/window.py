@@ -23,7 +23,6 @@ FINEST = 4  # cells; a jerk-limited plan gets a quarter of them
 
 def machine(arguments, jerk):
     text = f'name = "window.py"\n[path]\nmax_feed_mm_s = {arguments.feed}\n'
-    text += f'jerk_plan = "{arguments.jerk_plan}"\n' if jerk else ""
     for axis in arguments.axes:
         text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = {arguments.feed}\nsteps_per_mm = 320\n'
         text += f"max_acceleration_mm_s2 = {arguments.acceleration}\n" + (f"max_jerk_mm_s3 = {jerk}\n" if jerk else "")
@@ -71,7 +70,6 @@ def main():
     parser.add_argument("--feed", type=float, default=100)
     parser.add_argument("--acceleration", type=float, default=1000)
     parser.add_argument("--jerk", type=float, default=0)
-    parser.add_argument("--jerk-plan", default="optimal", choices=["bounded", "optimal"])
     parser.add_argument("--memory", type=int, default=32, help="KiB")
     arguments, options = parser.parse_known_args()
     sweeps = [Sweep(arguments, options, jerk) for jerk in ([0.0, arguments.jerk] if arguments.jerk else [0.0])]

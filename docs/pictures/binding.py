@@ -4,8 +4,7 @@
 
     docs/pictures/binding.py --tool build/release/bin/splinefeed --machine examples/jerk_limited.toml examples/butterfly.json > out.svg
 
-One column for each jerk_plan, bounded and optimal. All is taken from the feed segments of the runs: in the middle of each the
-limit with the largest use binds, where that is 95 % at least. Acceleration and jerk are shown as what of them points in the
+All is taken from the feed segments of the run: in the middle of each the limit with the largest use binds, where that is 95 % at least. Acceleration and jerk are shown as what of them points in the
 direction of travel. Python's standard library only (3.11 or later).
 """
 import argparse
@@ -19,18 +18,15 @@ import tomllib
 
 from drawing import BLUE, ORANGE, VERMILLION, Frame, document, legend, line, text, thinned
 
-TIERS = ["bounded", "optimal"]
 BINDS = 0.95
 COLOURS = {"feed or velocity": BLUE, "acceleration of an axis": ORANGE, "jerk of an axis": VERMILLION, "none": "#8c8c8c"}
-LEFT, WIDTH, GAP, TOP, HEIGHT, STEP = 66, 400, 74, 74, 124, 164
+LEFT, WIDTH, TOP, HEIGHT, STEP = 66, 874, 74, 124, 164
 
 
-def segments_of(tool, program, options, machine_text, tier):
+def segments_of(tool, program, options, machine):
     with tempfile.TemporaryDirectory() as folder:
-        machine, out = pathlib.Path(folder) / "machine.toml", pathlib.Path(folder) / "segments.csv"
-        text = re.sub(r"(?m)^\s*jerk_plan\s*=.*\n", "", machine_text)
-        machine.write_text(text.replace("[path]\n", f'[path]\njerk_plan = "{tier}"\n', 1))
-        subprocess.run([tool, "run", program, "-m", str(machine), "--segments", str(out), "--quiet", *options],
+        out = pathlib.Path(folder) / "segments.csv"
+        subprocess.run([tool, "run", program, "-m", machine, "--segments", str(out), "--quiet", *options],
                        check=True, stdout=subprocess.DEVNULL)
         return out.read_text()
 
@@ -86,32 +82,25 @@ def main():
     parser.add_argument("--start", type=float, default=0.0, help="s")
     parser.add_argument("--end", type=float, default=math.inf, help="s")
     arguments, options = parser.parse_known_args()
-    machine_text = pathlib.Path(arguments.machine).read_text()
-    machine = tomllib.loads(machine_text)
-    runs = []
-    for tier in TIERS:
-        samples = samples_of(segments_of(arguments.tool, arguments.program, options, machine_text, tier), machine)
-        runs.append((samples, [s for s in samples if arguments.start <= s[0] <= arguments.end]))
-    span = (min(shown[0][0] for _, shown in runs), max(shown[-1][0] for _, shown in runs))
+    machine = tomllib.loads(pathlib.Path(arguments.machine).read_text())
+    samples = samples_of(segments_of(arguments.tool, arguments.program, options, arguments.machine), machine)
+    shown = [s for s in samples if arguments.start <= s[0] <= arguments.end]
     out = [text(LEFT, 20, "What binds (95 % of a limit is used):")]
     out += legend(LEFT + 240, 20, [(name, colour, "") for name, colour in COLOURS.items()], 175)
     path = machine["path"]["max_feed_mm_s"]
     limits = [path, max(a["max_acceleration_mm_s2"] for a in machine["axis"]), max(a["max_jerk_mm_s3"] for a in machine["axis"])]
     titles = ["speed [mm/s]", "acceleration along the path [mm/s^2]", "jerk along the path [mm/s^3]"]
     for which, (title, limit) in enumerate(zip(titles, limits)):
-        values = [s[1][which] for _, shown in runs for s in shown]
+        values = [s[1][which] for s in shown]
         high = 1.1 * max(limit, *values)
         low = min(0.0, 1.1 * min(values)) if which == 0 else 1.1 * min(-limit, *values)
-        for column, (samples, shown) in enumerate(runs):
-            left, top = LEFT + column * (WIDTH + GAP), TOP + STEP * which
-            frame = Frame((left, top, WIDTH, HEIGHT), span, (low, high))
-            out += frame.drawn(title, "time [s]" if which == 2 else "", 5)
-            out += frame.limit(limit, "feed limit" if which == 0 else "limit of an axis") + (frame.limit(-limit) if which else [])
-            out += panel(shown, which, frame)
-            if which == 0:
-                whole = len(samples) * (samples[1][0] - samples[0][0])
-                out.append(text(left, top - 24, f'jerk_plan = "{TIERS[column]}", cycle time {whole:.3f} s', bold=True))
-    print(document(LEFT + len(TIERS) * (WIDTH + GAP) - GAP + 20, TOP + 3 * STEP, out))
+        frame = Frame((LEFT, TOP + STEP * which, WIDTH, HEIGHT), (shown[0][0], shown[-1][0]), (low, high))
+        out += frame.drawn(title, "time [s]" if which == 2 else "", 5)
+        out += frame.limit(limit, "feed limit" if which == 0 else "limit of an axis") + (frame.limit(-limit) if which else [])
+        out += panel(shown, which, frame)
+    whole = len(samples) * (samples[1][0] - samples[0][0])
+    out.append(text(LEFT, TOP - 24, f"cycle time {whole:.3f} s", bold=True))
+    print(document(LEFT + WIDTH + 20, TOP + 3 * STEP, out))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ template <Scalar S>
 class Trajectory;
 
 /// The caller chooses one of the derived classes, owns it, and passes it to Trajectory::make(): AccelerationPlanner for
-/// limits without jerk, OptimalPlanner or BoundedPlanner for limits with jerk. One planner serves one trajectory at a
+/// limits without jerk, JerkPlanner for limits with jerk. One planner serves one trajectory at a
 /// time.
 /// Size: several kilobytes, so static memory is the best place. The window of cells is separate storage of the caller.
 template <Scalar S>

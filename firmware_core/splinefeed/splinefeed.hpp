@@ -21,8 +21,7 @@
 
 // Curves to feed segments, within the machine's limits.
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/bounded_planner.hpp"
-#include "splinefeed/optimal_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
 #include "splinefeed/trajectory.hpp"
 
 // Feed segments to an interrupt or another thread, and to edges of step and direction lines.

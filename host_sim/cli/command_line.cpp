@@ -121,16 +121,11 @@ void take_format(Job& job, const std::string& format) {
     }
 }
 
-void take_scalar(Job& job, const std::string& scalar) {
-    if (scalar == "fixed") {
-        job.run.path.scalar = ScalarKind::fixed;
-    } else if (scalar == "float") {
-        job.run.path.scalar = ScalarKind::float32;
-    } else if (scalar == "double") {
-        job.run.path.scalar = ScalarKind::float64;
-    } else {
-        refuse_value("--scalar", scalar, {"fixed", "float", "double"});
+ScalarKind scalar_kind(std::string_view option, std::string_view given, std::initializer_list<std::string_view> known) {
+    if (std::find(known.begin(), known.end(), given) == known.end()) {
+        refuse_value(option, given, known);
     }
+    return given == "fixed" ? ScalarKind::fixed : given == "float" ? ScalarKind::float32 : ScalarKind::float64;
 }
 
 void take_start(Job& job, const std::optional<std::string>& start) {
@@ -161,7 +156,7 @@ void take_window(Job& job, const std::string& text) {
     if (!cells) {
         throw UsageError(fmt::format("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text)));
     }
-    job.run.motion.window_cells = *cells;
+    job.run.motion.planner.window_cells = *cells;
 }
 
 // One output at most goes to standard output, and no two to one file.
@@ -334,7 +329,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         if (!typed.format.empty() && typed.format != "json") {
             throw UsageError(fmt::format("--format {}: a surface is described in json", in_quotes(typed.format)));
         }
-        take_scalar(job, typed.scalar.value_or("double"));
+        job.run.path.scalar = scalar_kind("--scalar", typed.scalar.value_or("double"), {"fixed", "float", "double"});
         return job;
     }
     job.run.machine = typed.machine.value_or("");
@@ -361,7 +356,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     }
     take_start(job, typed.start);
     take_format(job, typed.format);
-    take_scalar(job, typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"));
+    job.run.path.scalar =
+        scalar_kind("--scalar", typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"),
+                    {"fixed", "float", "double"});
+    job.run.motion.planner.jerk_scalar = scalar_kind("--jerk-scalar", typed.jerk_scalar, {"double", "float"});
     take_window(job, typed.window);
     take_outputs(job, command, typed.json ? "json" : typed.summary);
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {

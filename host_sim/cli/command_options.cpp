@@ -114,8 +114,11 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
             ->disable_flag_override();
     }
     app.add_option("--window", typed.window,
-                   "look-ahead of the feed plan in cells, 10 to 1000000 (default 1024); jerk_plan = \"optimal\" uses a "
-                   "quarter, at least 16");
+                   "look-ahead of the feed plan in cells, 10 to 1000000 (default 1024); with a jerk limit a quarter "
+                   "is planned at once, at least 16");
+    app.add_option("--jerk-scalar", typed.jerk_scalar,
+                   "double or float: number type of the plan with a jerk limit (default double; float as on a "
+                   "microcontroller)");
     app.add_option("--events", job.run.motion.events,
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";

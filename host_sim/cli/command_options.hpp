@@ -18,6 +18,7 @@ struct Typed {
     std::string summary;
     std::optional<std::string> start;
     std::string window = "1024";
+    std::string jerk_scalar = "double";
     bool json = false; ///< of check
 };
 

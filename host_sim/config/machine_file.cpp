@@ -40,7 +40,7 @@ std::vector<std::string_view> keys_with(const Numbers& numbers, std::initializer
 
 /// Those of [path]: its own, and those that other files state.
 std::vector<std::string_view> path_keys() {
-    std::vector<std::string_view> keys = keys_with(path_numbers, {"jerk_plan"});
+    std::vector<std::string_view> keys = keys_with(path_numbers, {});
     for (const PathToleranceKey& tolerance : path_tolerance_keys) {
         keys.emplace_back(tolerance.key);
     }
@@ -129,21 +129,6 @@ private:
                 tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
             }
         }
-        if (const toml::node* tier = table.get("jerk_plan")) {
-            settings.jerk_tier = jerk_tier(*tier);
-        }
-    }
-
-    [[nodiscard]] JerkTier jerk_tier(const toml::node& node) const {
-        const std::string name = node.value_or(std::string{});
-        std::string known;
-        for (const JerkTierName& tier : jerk_tiers) {
-            if (name == tier.name) {
-                return tier.tier;
-            }
-            known += fmt::format("{}\"{}\"", known.empty() ? "" : " or ", tier.name);
-        }
-        check_.fail(node, "jerk_plan must be " + known);
     }
 
     void step(const toml::table& root, StepSettings& settings) const {

@@ -61,9 +61,8 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
 /// lines of 1 to 40 mm). Without a jerk limit a blend is faster, but for a centripetal limit C, or a chord error, that
 /// is well below the acceleration A. The blend then loses where v^2 = C / kappa is far below the feed, and where
 /// sin(phi/2) is above 1.5 C / A: both times are those of A on the same way. (By integrating v^2 along corners of 10 to
-/// 150 degrees at C, with feeds of 0.7 to 3 times the root of A and the way: 1.4 to 1.8.) `bounded` mixes a bend with
-/// the path beside it: those that allow less than half of the feed, v^2 = A / kappa. `optimal` loses at turns below 105
-/// degrees, where the blend allows less than (1 - 1.6 sin^2(phi/2)) A^2 / (2 J).
+/// 150 degrees at C, with feeds of 0.7 to 3 times the root of A and the way: 1.4 to 1.8.) With a jerk limit it loses at
+/// turns below 105 degrees, where the blend allows less than (1 - 1.6 sin^2(phi/2)) A^2 / (2 J).
 [[nodiscard]] inline SharpestCorner sharpest_corner(const MachineSettings& machine) {
     double jerk = 0.0;
     double acceleration = machine.axis[0].max_acceleration_mm_s2;
@@ -79,9 +78,6 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
         const double bent = bent_acceleration(machine);
         return bent < acceleration ? SharpestCorner{bent / (half_feed * half_feed), 0.0, 1.5 * bent / acceleration}
                                    : SharpestCorner{};
-    }
-    if (machine.jerk_tier == JerkTier::bounded) {
-        return {acceleration / (half_feed * half_feed), 0.0};
     }
     const double slow = std::min(half_feed, acceleration * acceleration / (2.0 * jerk));
     return {acceleration / (slow * slow), 1.6};

@@ -233,6 +233,7 @@ std::string to_json(const Summary& summary) {
     object["curve_segments"] = summary.curve_segments;
     object["feed_segments"] = summary.feed_segments;
     object["scalar"] = summary.scalar;
+    object["jerk_scalar"] = summary.jerk_scalar.empty() ? Json(nullptr) : Json(summary.jerk_scalar);
     object["curve"] = summary.curve;
     object["max_speed_mm_s"] = summary.max_speed_mm_s;
     object["limit_use"]["velocity"] = velocity;
@@ -293,7 +294,8 @@ std::string to_text(const Summary& summary) {
     row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
     row(out, summary.curve == "gcode" ? "moves" : "waypoints", std::to_string(summary.waypoints), "");
     row(out, "curve segments", std::to_string(summary.curve_segments), summary.curve);
-    row(out, "feed segments", std::to_string(summary.feed_segments), summary.scalar);
+    row(out, "feed segments", std::to_string(summary.feed_segments),
+        summary.jerk_scalar.empty() ? summary.scalar : summary.scalar + ", planned in " + summary.jerk_scalar);
     row(out, "planning time", fmt::format("{:.3f}", summary.planning_time_s), "s");
     const Summary::MemoryBytes& memory = summary.memory_bytes;
     row(out, "planner's memory", std::to_string(memory.curve + memory.feed_plan + memory.stream),

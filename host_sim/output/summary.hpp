@@ -67,6 +67,7 @@ struct Summary {
     std::uint64_t curve_segments = 0;
     std::uint64_t feed_segments = 0;
     std::string scalar;
+    std::string jerk_scalar; ///< empty: the jerk is not limited
     std::string curve;
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file

@@ -3,6 +3,8 @@
 
 #include "host_sim/planning/scalar_path.hpp"
 
+#include "splinefeed/number/path_position.hpp"
+
 namespace splinefeed::host {
 
 namespace {
@@ -39,6 +41,7 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
     Statistics out;
     const Trajectory<S>& trajectory = planner_.trajectory();
     out.scalar = scalar_name<S>();
+    out.jerk_scalar = planner_.jerk_scalar();
     out.length_mm = length_to_mm(trajectory.arc_length().travelled());
     out.curve_segments = watched_.tee.segments();
     out.counts = watched_.curve.counts();
@@ -52,13 +55,13 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
 }
 
 std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine, CurveWatch& watch,
-                                       std::size_t window_cells) {
+                                       const PlannerChoice& choice) {
     switch (input.scalar()) {
-    case ScalarKind::fixed: return std::make_unique<ScalarPath<Fixed>>(input, machine, watch, window_cells);
-    case ScalarKind::float32: return std::make_unique<ScalarPath<float>>(input, machine, watch, window_cells);
+    case ScalarKind::fixed: return std::make_unique<ScalarPath<Fixed>>(input, machine, watch, choice);
+    case ScalarKind::float32: return std::make_unique<ScalarPath<float>>(input, machine, watch, choice);
     case ScalarKind::float64: break;
     }
-    return std::make_unique<ScalarPath<double>>(input, machine, watch, window_cells);
+    return std::make_unique<ScalarPath<double>>(input, machine, watch, choice);
 }
 
 std::optional<std::uint64_t> look_through(PathInput& input, CurveWatch& watch) {

@@ -18,12 +18,19 @@
 
 namespace splinefeed::host {
 
+/// How a path is planned.
+struct PlannerChoice {
+    std::size_t window_cells = 1024;              ///< look-ahead of the feed plan
+    ScalarKind jerk_scalar = ScalarKind::float64; ///< number type of a JerkPlanner; not fixed
+};
+
 /// The only door between the scalar of a plan and what lies behind it: one virtual call a segment. Steering and answers
 /// are those of Trajectory.
 class PlannedPath {
 public:
     struct Statistics {
         const char* scalar = "";
+        const char* jerk_scalar = "";                ///< of a JerkPlanner; empty: the jerk is not limited
         double length_mm = 0.0;                      ///< that was travelled
         std::uint64_t curve_segments = 0;            ///< that were passed to the plan
         PathCounts counts;                           ///< of a path within a tolerance
@@ -60,9 +67,8 @@ public:
 /// The input in its scalar, with the planner that the machine's limits need. Throws InputError where the limits do not
 /// go together, and UsageError where the curve cannot be what was chosen. The arguments must outlive it, but for
 /// `machine`.
-/// @param window_cells  look-ahead of the feed plan
 [[nodiscard]] std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine,
-                                                     CurveWatch& watch, std::size_t window_cells);
+                                                     CurveWatch& watch, const PlannerChoice& choice);
 
 /// The whole curve, to the watch; nothing is planned. Inputs of a real machine answer as the program expects: a loop
 /// may wait for another answer, so the look ends at the M66 behind a hundred of them. Throws what the watch throws.

@@ -5,14 +5,14 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::size_t window_cells = 256; // a line has few
+constexpr PlannerChoice choice{.window_cells = 256}; // a line has few
 
 } // namespace
 
 StraightMotion::StraightMotion(const MachineDescription& machine, const PerAxis<double>& from,
                                const PerAxis<double>& to, double feed_mm_s)
     : limits_(MotionLimits<double>::make(machine.settings).value()), line_({.axes = machine.settings.axes}),
-      planner_(line_, limits_, window_cells) {
+      planner_(line_, limits_, choice) {
     const auto waypoint = [&](const PerAxis<double>& place) {
         Waypoint<double> point;
         for (const unsigned k : indices(machine.settings.axes)) {

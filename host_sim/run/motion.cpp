@@ -35,7 +35,7 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                             .optimum = measures_ ? &optimum_ : nullptr,
                             .work = &work_,
                             .share = &share_}),
-      path_(plan_path(input, description, watch_, arguments.window_cells)), feeder_(path_->feeder()),
+      path_(plan_path(input, description, watch_, arguments.planner)), feeder_(path_->feeder()),
       machine_(description, figures.segments_per_sample,
                {.enforce = arguments.enforce,
                 .measures = arguments.measures,

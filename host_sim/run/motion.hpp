@@ -30,7 +30,7 @@ struct CounterSeam; // of tests
 namespace splinefeed::host {
 
 struct MotionArguments {
-    std::size_t window_cells = 1024; ///< look-ahead of the feed plan
+    PlannerChoice planner;
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool measures = true;            ///< false: of the motion only its time and what binds it is known

@@ -52,6 +52,7 @@ Summary Motion::summary() const {
     summary.curve_segments = path.curve_segments;
     summary.feed_segments = segments_;
     summary.scalar = path.scalar;
+    summary.jerk_scalar = path.jerk_scalar;
     summary.curve = input_->curve_name();
     summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
     double acceleration_sq = 0.0;

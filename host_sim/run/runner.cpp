@@ -213,7 +213,7 @@ int run(const RunArguments& arguments) {
         summary.what_would_help = what_would_help({.path = &arguments.path,
                                                    .machine = &of,
                                                    .begins = &motion_arguments.begins,
-                                                   .window_cells = arguments.motion.window_cells,
+                                                   .planner = arguments.motion.planner,
                                                    .standing_s = motion.stood_s(),
                                                    .waypoints = waypoints,
                                                    .quiet = arguments.motion.quiet},

@@ -83,7 +83,7 @@ double planned_s(const HelpArguments& arguments, const RunMachine& machine, doub
     input.end_after(moves);
     Progress progress({.quiet = arguments.quiet, .all = arguments.waypoints});
     NoWatch nobody;
-    const auto path = plan_path(input, machine.machine, nobody, arguments.window_cells);
+    const auto path = plan_path(input, machine.machine, nobody, arguments.planner);
     PathFeeder& feeder = path->feeder();
     path->override_feed(feed_factor);
     std::uint64_t ticks = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/output/summary.hpp"
+#include "host_sim/planning/planned_path.hpp"
 #include "host_sim/program/path_input.hpp"
 #include "host_sim/run/run_machine.hpp"
 
@@ -13,7 +14,7 @@ struct HelpArguments {
     const PathArguments* path = nullptr;
     const RunMachine* machine = nullptr;
     const MachineState* begins = nullptr;
-    std::size_t window_cells = 1024;
+    PlannerChoice planner;
     double standing_s = 0.0; ///< part of the cycle time that is none of the plan: dwells
     std::optional<std::uint64_t> waypoints;
     bool quiet = false;

@@ -17,7 +17,7 @@ costs "$output"
 stack_of '' "$output"
 figure state "$(number_said '^state ([0-9]+) bytes' "$output")"
 bound=$(find "$build"/tests/arm/CMakeFiles/{blended_path,pipeline_platform}.dir -name '*.ci' \
-    -exec awk -v scalar=Fixed -v smooth=none -f tests/arm/stack.awk {} +)
+    -exec awk -v scalar=Fixed -v jerk=none -f tests/arm/stack.awk {} +)
 echo "$bound"
 bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")
 figure stack_bound "$bytes"

@@ -23,10 +23,10 @@ for program in "${programs[@]}"; do
     done < <(grep '^bytes: ' <<<"$output")
     scalar=Fixed
     if [[ $program == *float* ]]; then scalar=float; fi
-    smooth=0
-    if [[ $program == *_jerk ]]; then smooth=1; fi
+    jerk=0
+    if [[ $program == *_jerk ]]; then jerk=1; fi
     bound=$(find "$build/firmware_core" "$build"/tests/arm/CMakeFiles/{"$program",pipeline_platform}.dir -name '*.ci' \
-        -exec awk -v scalar=$scalar -v smooth=$smooth -f tests/arm/stack.awk {} +)
+        -exec awk -v scalar=$scalar -v jerk=$jerk -f tests/arm/stack.awk {} +)
     echo "$bound"
     bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")
     figure "$program.stack_bound" "$bytes"

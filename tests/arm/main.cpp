@@ -3,7 +3,7 @@
 // segment. The same source on the host must print the same hash.
 #include "segment_hash.hpp"
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/bounded_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/trajectory.hpp"
 #include "write_value.hpp"
@@ -59,7 +59,6 @@ constexpr MachineSettings machine = [] {
     settings.axis[2].steps_per_mm = 400.0;
     settings.centripetal_mm_s2 = 800.0;
     if (jerk_limited) {
-        settings.jerk_tier = JerkTier::bounded;
         settings.axis[0].max_jerk_mm_s3 = 80000.0;
         settings.axis[1].max_jerk_mm_s3 = 60000.0;
         settings.axis[2].max_jerk_mm_s3 = 40000.0;
@@ -84,19 +83,21 @@ private:
 };
 
 Static<G2Spline<Real>> curve_storage;
-using Planner = std::conditional_t<jerk_limited, BoundedPlanner<Real>, AccelerationPlanner<Real>>;
-using Places = std::array<PathPosition, SmoothSampler<Real>::places_for(*limits)>;
+using Planner = std::conditional_t<jerk_limited, JerkPlanner<Real, float>, AccelerationPlanner<Real>>;
 Static<Planner> planner_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
-Static<std::array<SmoothCell<Real>, SmoothPlan<Real>::smallest_window>> cells_storage;
-Static<Places> places_storage;
+constexpr std::size_t cells = 16; // of the plan with a jerk limit: JerkPlan::smallest_window
+Static<std::array<Cell<Real>, cells>> cells_storage;
+Static<std::array<JerkNode<float>, cells + 1>> nodes_storage;
+Static<std::array<LegNode<float>, cells + 1>> scratch_storage;
 FeedSegment segment;
 
+constexpr std::size_t jerk_cell_bytes = sizeof(Cell<Real>) + sizeof(JerkNode<float>) + sizeof(LegNode<float>);
+
 /// What a motion with windows of that many cells has in RAM, without the stack.
-constexpr std::size_t bytes_with(std::size_t cells) {
-    const std::size_t smooth = jerk_limited ? cells * sizeof(SmoothCell<Real>) + sizeof(Places) : 0;
-    return sizeof(G2Spline<Real>) + sizeof(Planner) + cells * sizeof(PlannedCell<Real>) + smooth +
-           sizeof(Trajectory<Real>) + sizeof(FeedSegment);
+constexpr std::size_t bytes_with(std::size_t planned, std::size_t jerk_cells) {
+    return sizeof(G2Spline<Real>) + sizeof(Planner) + planned * sizeof(PlannedCell<Real>) +
+           jerk_cells * jerk_cell_bytes + sizeof(Trajectory<Real>) + sizeof(FeedSegment);
 }
 
 // Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.
@@ -120,16 +121,16 @@ constexpr std::size_t bytes_with(std::size_t cells) {
     write_value("bytes: feed_plan", sizeof(FeedPlan<Real>));
     write_value("bytes: window", sizeof window);
     write_value("bytes: stream", sizeof(SegmentStream<Real>) + sizeof(ProfileSampler<Real>));
-    write_value("bytes: with_52_cells", bytes_with(52));
     if constexpr (jerk_limited) {
-        auto& cells = cells_storage.build();
-        auto& places = places_storage.build();
-        write_value("bytes: smooth_plan", sizeof(SmoothPlan<Real>));
-        write_value("bytes: smooth_window", sizeof cells);
-        write_value("bytes: average", sizeof(SmoothSampler<Real>) + sizeof places);
-        return Trajectory<Real>::make(curve, *limits,
-                                      planner_storage.build(window, SmoothStorage<Real>{cells, places}));
+        write_value("bytes: with_100_cells", bytes_with(52, 100));
+        write_value("bytes: jerk_plan", sizeof(JerkPlan<Real, float>));
+        write_value("bytes: jerk_cell", jerk_cell_bytes);
+        return Trajectory<Real>::make(
+            curve, *limits,
+            planner_storage.build(window, JerkStorage<Real, float>{cells_storage.build(), nodes_storage.build(),
+                                                                   scratch_storage.build()}));
     } else {
+        write_value("bytes: with_52_cells", bytes_with(52, 0));
         return Trajectory<Real>::make(curve, *limits, planner_storage.build(window));
     }
 }

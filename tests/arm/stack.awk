@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v smooth=1
-# [-v root=FUNCTION] -f stack.awk FILE.ci... smooth is 1 where motions are averaged, none where nothing is planned. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
+# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v jerk=1
+# [-v root=FUNCTION] -f stack.awk FILE.ci... jerk is 1 where it is limited, none where nothing is planned. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
     # libgcc, measured in its disassembly (the largest, Cortex-M0) and rounded up; each with all that it calls.
@@ -10,16 +10,23 @@ BEGIN {
     library["__aeabi_lmul"] = 32
     library["__clzdi2"] = library["__clzsi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
+    split("f2lz f2ulz l2f ul2f d2lz d2ulz l2d ul2d", soft, " ")
+    for (i in soft) { library["__aeabi_" soft[i]] = 104 }
+    split("dadd dsub drsub dmul ddiv dcmpeq dcmplt dcmple dcmpge dcmpgt dcmpun cdcmpeq cdcmple d2uiz", soft, " ")
+    for (i in soft) { library["__aeabi_" soft[i]] = 72 }
+    split("d2f f2d d2iz i2d ui2d fadd fsub frsub fmul fdiv fcmpeq fcmplt fcmple fcmpge fcmpgt fcmpun cfcmpeq i2f ui2f f2iz f2uiz", soft, " ")
+    for (i in soft) { library["__aeabi_" soft[i]] = 36 }
     if (root == "") { root = "_ZN12_GLOBAL__N_18on_resetEv" }
     # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their
-    # plan: a FeedPlan, or where motions are averaged a SmoothPlan. What makes the trajectory asks its planner.
+    # plan: a FeedPlan, or where the jerk is limited a JerkPlan. What makes the trajectory asks its planner.
     # A call asks for those of the method that it names.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
-    served = of "(4cell|5clear|5steer|6replan|7advance|7prepare|7rest_at|8standing)E"
-    plan = smooth ? "^_ZNK?10splinefeed10SmoothPlan" served "|^_ZN10splinefeed10MotionPlan" of "6replanE" \
-                  : "^_ZNK?10splinefeed8FeedPlan" served
-    sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14ProfileSampler") of "(4next|5clear|7at_rest)E"
-    planner = "^_ZNK?10splinefeed" (smooth ? "14BoundedPlanner" : "19AccelerationPlanner") of "(4fits|5build)E"
+    in_float = "INS_5FixedEfE"
+    served = "(4cell|5clear|5steer|6replan|7advance|7prepare|7rest_at|8standing)E"
+    plan = jerk ? "^_ZNK?10splinefeed8JerkPlan" in_float served "|^_ZN10splinefeed10MotionPlan" of "6replanE" \
+                : "^_ZNK?10splinefeed8FeedPlan" of served
+    sampler = "^_ZNK?10splinefeed14ProfileSampler" of "(4next|5clear|7at_rest)E"
+    planner = "^_ZNK?10splinefeed" (jerk ? "11JerkPlanner" in_float : "19AccelerationPlanner" of) "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
 }
@@ -123,7 +130,7 @@ END {
         planners += name ~ planner
     }
     # Eight functions of a plan, three of a sampler, two of a planner: those that were renamed would be left out.
-    if (smooth != "none" && (plans < 5 || samplers < 2 || planners < 2)) {
+    if (jerk != "none" && (plans < 5 || samplers < 2 || planners < 2)) {
         fail(plans " functions of plans, " samplers " of samplers and " planners " of planners have the names that are known here")
     }
     print "stack bound " depth(root) " bytes:"

@@ -5,7 +5,7 @@
 #include "instructions.hpp"
 #include "segment_hash.hpp"
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/bounded_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/trajectory.hpp"
 #include "write_number.hpp"
@@ -21,7 +21,8 @@ namespace {
 constexpr unsigned waypoints = 400;
 constexpr std::uint32_t instructions_a_count = 64;
 constexpr std::size_t window_cells = 52;
-constexpr unsigned work_a_call = 4; // as in examples/firmware
+constexpr std::size_t jerk_cells = 100; // of the plan with a jerk limit
+constexpr unsigned work_a_call = 4;     // as in examples/firmware
 
 constexpr MachineSettings machine(bool jerk_limited) {
     MachineSettings settings;
@@ -31,7 +32,6 @@ constexpr MachineSettings machine(bool jerk_limited) {
     settings.axis[2].max_acceleration_mm_s2 = 500.0;
     settings.axis[2].steps_per_mm = 400.0;
     if (jerk_limited) {
-        settings.jerk_tier = JerkTier::bounded;
         for (AxisSettings& axis : settings.axis) {
             axis.max_jerk_mm_s3 = 40000.0;
         }
@@ -176,12 +176,11 @@ template <bool jerk_limited>
 Trajectory<Fixed> make_trajectory(G2Spline<Fixed>& curve) {
     Window& window = Static<Window>::build();
     if constexpr (jerk_limited) {
-        auto& cells = Static<std::array<SmoothCell<Fixed>, window_cells>>::build();
-        auto& places =
-            Static<std::array<PathPosition, SmoothSampler<Fixed>::places_for(*limits<jerk_limited>)>>::build();
-        return *Trajectory<Fixed>::make(
-            curve, *limits<jerk_limited>,
-            Static<BoundedPlanner<Fixed>>::build(window, SmoothStorage<Fixed>{cells, places}));
+        const JerkStorage<Fixed, float> storage{Static<std::array<Cell<Fixed>, jerk_cells>>::build(),
+                                                Static<std::array<JerkNode<float>, jerk_cells + 1>>::build(),
+                                                Static<std::array<LegNode<float>, jerk_cells + 1>>::build()};
+        return *Trajectory<Fixed>::make(curve, *limits<jerk_limited>,
+                                        Static<JerkPlanner<Fixed, float>>::build(window, storage));
     } else {
         return *Trajectory<Fixed>::make(curve, *limits<jerk_limited>,
                                         Static<AccelerationPlanner<Fixed>>::build(window));

@@ -23,10 +23,9 @@ constexpr splinefeed::MachineSettings uneven_machine() {
     return settings;
 }
 
-constexpr splinefeed::MachineSettings jerk_limited_machine(splinefeed::JerkTier tier) {
+constexpr splinefeed::MachineSettings jerk_limited_machine() {
     splinefeed::MachineSettings settings = uneven_machine();
     settings.axis[0].max_braking_mm_s2 = 0.0;
-    settings.jerk_tier = tier;
     settings.axis[0].max_jerk_mm_s3 = 80000.0;
     settings.axis[1].max_jerk_mm_s3 = 60000.0;
     settings.axis[2].max_jerk_mm_s3 = 40000.0;
@@ -35,7 +34,7 @@ constexpr splinefeed::MachineSettings jerk_limited_machine(splinefeed::JerkTier 
 
 template <splinefeed::Scalar S>
 inline constexpr auto uneven_limits = splinefeed::MotionLimits<S>::make(uneven_machine());
-template <splinefeed::Scalar S, splinefeed::JerkTier tier>
-inline constexpr auto jerk_limits = splinefeed::MotionLimits<S>::make(jerk_limited_machine(tier));
+template <splinefeed::Scalar S>
+inline constexpr auto jerk_limits = splinefeed::MotionLimits<S>::make(jerk_limited_machine());
 
 } // namespace bits

@@ -4,8 +4,7 @@
 #include "machines.hpp"
 #include "random.hpp"
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/bounded_planner.hpp"
-#include "splinefeed/optimal_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/trajectory.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 
 constexpr std::size_t cells = 24;
 
-/// How much of a planner is run. OptimalPlanner plans in double: a chip takes it a thousand times as long as a host.
+/// How much of a planner is run. In double a chip takes a thousand times as long as a host.
 struct Amount {
     int points;
     std::uint64_t steered_paths;
@@ -93,6 +92,16 @@ void run_planner(const char* name, const char* steered, const MotionLimits<S>& l
     report<S>(steered, hash, good);
 }
 
+template <Scalar S, Floating R>
+void run_jerk_planner(const char* name, const char* steered, const Amount& amount) {
+    std::array<PlannedCell<S>, cells> window;
+    std::array<Cell<S>, cells> known;
+    std::array<JerkNode<R>, cells + 1> nodes;
+    std::array<LegNode<R>, cells + 1> scratch;
+    JerkPlanner<S, R> planner(window, {known, nodes, scratch});
+    run_planner<S>(name, steered, *jerk_limits<S>, planner, amount);
+}
+
 } // namespace
 
 template <Scalar S>
@@ -103,21 +112,8 @@ void run_planners() {
         run_planner<S>("planner acceleration", "planner acceleration, steered", *uneven_limits<S>, planner, much);
     }
     if constexpr (!std::same_as<S, float>) { // which no jerk limit takes
-        {
-            constexpr const auto& limits = jerk_limits<S, JerkTier::bounded>;
-            std::array<SmoothCell<S>, cells> smooth;
-            std::array<PathPosition, SmoothSampler<S>::places_for(*limits)> places;
-            BoundedPlanner<S> planner(window, {smooth, places});
-            run_planner<S>("planner bounded", "planner bounded, steered", *limits, planner, much);
-        }
-        {
-            std::array<Cell<S>, cells> known;
-            std::array<JerkNode, cells + 1> nodes;
-            std::array<LegNode<double>, cells + 1> scratch;
-            OptimalPlanner<S> planner(window, {known, nodes, scratch});
-            run_planner<S>("planner optimal", "planner optimal, steered", *jerk_limits<S, JerkTier::optimal>, planner,
-                           little);
-        }
+        run_jerk_planner<S, float>("planner jerk, float", "planner jerk, float, steered", much);
+        run_jerk_planner<S, double>("planner jerk, double", "planner jerk, double, steered", little);
     }
 }
 

@@ -316,9 +316,8 @@ TEMPLATE_TEST_CASE("what is made of random moves is run within every limit", "[b
         MoveProgram program = random_moves(random);
         program.axes = std::max(2, program.axes);
         MachineSettings machine = machine_of(program.axes, 100.0, 1000.0, 100.0);
-        machine.jerk_tier = round % 3 == 0 ? JerkTier::bounded : JerkTier::optimal;
         for (AxisSettings& axis : machine.axis) {
-            axis.max_jerk_mm_s3 = round % 3 == 2 ? 0.0 : 30000.0;
+            axis.max_jerk_mm_s3 = round % 2 == 1 ? 0.0 : 30000.0;
         }
         Real length = 0.0L;
         for (const ProgrammedMove& move : program.moves) {

@@ -18,15 +18,19 @@ struct Ends {
     LegNode<double> to;
 };
 
-Ends ends_of(const JerkCell& cell, double b0, double middle, double b1) {
+Ends ends_of(const JerkCell<double>& cell, double b0, double middle, double b1) {
     Ends ends;
-    ends.from.length_mm = cell.length_mm;
+    const double l = cell.length_mm;
+    ends.from.length_mm = l;
     ends.from.b = b0;
     ends.from.middle_sq = middle;
     ends.to.b = b1;
-    for (const unsigned k : indices(cell.axes)) {
+    ends.from.slope = 2.0 * (middle - b0) / l;
+    ends.to.slope = 2.0 * (b1 - middle) / l;
+    ends.from.curvature = (ends.to.slope - ends.from.slope) / l;
+    for (const unsigned k : indices(cell.limits.axes)) {
         for (unsigned e = 0; e < 2; ++e) {
-            const AxisEnd& at = cell.end[e][k];
+            const AxisEnd<double>& at = cell.end[e][k];
             LegAxis<double>& axis = (e == 0 ? ends.from : ends.to).axis[k];
             axis.first = at.first;
             axis.second = at.second;
@@ -47,8 +51,8 @@ TEST_CASE("what is proved of a cell is kept everywhere in it, and little is give
     for (int trial = 0; trial < 2000; ++trial) {
         const JerkLimits limits{1000.0, 1000.0 * std::exp2(10.0 * unit(random)), 1e9};
         const Wave wave{{unit(random), 0.5 * unit(random)}, {unit(random), 2.0 * unit(random)}};
-        JerkCell cell = wave.cell(20.0 * unit(random), 0.01 + 0.3 * unit(random), limits);
-        for (const unsigned k : indices(cell.axes)) {
+        JerkCell<double> cell = wave.cell(20.0 * unit(random), 0.01 + 0.3 * unit(random), limits);
+        for (const unsigned k : indices(cell.limits.axes)) {
             const double second = 0.3 * unit(random);
             const double third = 0.3 * unit(random);
             for (auto& end : cell.end) {
@@ -57,14 +61,13 @@ TEST_CASE("what is proved of a cell is kept everywhere in it, and little is give
             }
         }
         const double shape[] = {0.5 + unit(random), 0.5 + unit(random), 0.5 + unit(random)};
-        const AxisLimits<double> axes{2, {limits.acceleration, limits.acceleration}, {limits.jerk, limits.jerk}};
         double low = 0.0;
         double high = 1e6;
         for (int i = 0; i < 60; ++i) { // the fastest motion of this shape that is proved
             const double b = 0.5 * (low + high);
             const Ends ends = ends_of(cell, b * shape[0], b * shape[1], b * shape[2]);
-            const CellUse<double> use = cell_use(ends.from, ends.to, axes);
-            (use.acceleration <= 1.0 && use.jerk <= 1.0 ? low : high) = b;
+            const CellUse<double> use = cell_use(ends.from, ends.to, cell.limits);
+            (use.acceleration.most <= 1.0 && use.jerk.most <= 1.0 ? low : high) = b;
         }
         const double l = cell.length_mm;
         const JerkUse use = use_of(cell, wide(low * shape[0]), wide(2.0 * low * (shape[1] - shape[0]) / l),

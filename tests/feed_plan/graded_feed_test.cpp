@@ -54,8 +54,8 @@ Real gap(const Cell<S>& before, const Cell<S>& after) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("the parts of cells beside a slow bend follow each other without a gap", "[feed_plan][jerk][smooth]",
-                   double, Fixed) {
+TEMPLATE_TEST_CASE("the parts of cells beside a slow bend follow each other without a gap", "[feed_plan][jerk]", double,
+                   Fixed) {
     using S = TestType;
     Graded<S> graded;
     Cell<S> before;
@@ -75,8 +75,8 @@ TEMPLATE_TEST_CASE("the parts of cells beside a slow bend follow each other with
     CHECK(std::fabs(length - whole) < 1e-6L);
 }
 
-TEMPLATE_TEST_CASE("a path behind one that was forgotten begins with the start of its first cell",
-                   "[feed_plan][jerk][smooth]", double, Fixed) {
+TEMPLATE_TEST_CASE("a path behind one that was forgotten begins with the start of its first cell", "[feed_plan][jerk]",
+                   double, Fixed) {
     // Wherever the feed was in a cell of the path before
     using S = TestType;
     int cut = 0;

@@ -12,14 +12,14 @@ using namespace splinefeed_test;
 namespace {
 
 // b = c s^(4/3) from the end at rest: jerk of the axes at many points, of the limit.
-long double jerk_from_rest(const JerkCell& cell, unsigned moving, long double largest_b) {
+long double jerk_from_rest(const JerkCell<double>& cell, unsigned moving, long double largest_b) {
     const long double l = wide(cell.length_mm);
     const long double along = 2 * largest_b * std::sqrt(largest_b) / (9 * l * l);
     long double most = 0;
     for (unsigned k = 0; k < 2; ++k) {
         const long double sign = moving == 1 ? 1 : -1;
-        const AxisEnd& rest = cell.end[1 - moving][k];
-        const AxisEnd& at = cell.end[moving][k];
+        const AxisEnd<double>& rest = cell.end[1 - moving][k];
+        const AxisEnd<double>& at = cell.end[moving][k];
         const long double d0 = wide(rest.second) * l;
         const long double d1 = wide(at.second) * l;
         const long double rise = sign * (wide(at.first) - wide(rest.first));
@@ -31,8 +31,8 @@ long double jerk_from_rest(const JerkCell& cell, unsigned moving, long double la
             const long double second = (d0 + x * (2 * c2 + x * 3 * c3)) / l;
             const long double third = (2 * c2 + x * 6 * c3) / (l * l);
             const long double s = x * l;
-            most = std::max(most,
-                            along * std::abs(first + 9 * second * s + 4.5L * third * s * s) / wide(cell.jerk_mm_s3[k]));
+            most = std::max(most, along * std::abs(first + 9 * second * s + 4.5L * third * s * s) /
+                                      wide(cell.limits.jerk_mm_s3[k]));
         }
     }
     return most;
@@ -48,7 +48,7 @@ TEST_CASE("from rest and to rest the jerk is kept all along the cell, and used",
     for (int trial = 0; trial < 2000; ++trial) {
         const JerkLimits limits{2000.0, 50000.0, 1e9};
         const Wave wave{{unit(random), unit(random)}, {2.0 * unit(random), 6.0 * unit(random)}};
-        const JerkCell cell = wave.cell(10.0 * unit(random), 0.01 + 0.1 * unit(random), limits);
+        const JerkCell<double> cell = wave.cell(10.0 * unit(random), 0.01 + 0.1 * unit(random), limits);
         for (const unsigned moving : {0U, 1U}) {
             const long double use = jerk_from_rest(cell, moving, wide(cell.largest_from_rest(moving)));
             REQUIRE(use <= 1.0L + 1e-9L);
@@ -59,7 +59,7 @@ TEST_CASE("from rest and to rest the jerk is kept all along the cell, and used",
 }
 
 TEST_CASE("on a straight line a cell from rest takes the time of constant jerk", "[feed_plan][jerk]") {
-    const JerkCell cell = Wave{{0.0, 0.0}, {1.0, 1.0}}.cell(0.0, 0.5, {1e9, 1000.0, 1e9});
+    const JerkCell<double> cell = Wave{{0.0, 0.0}, {1.0, 1.0}}.cell(0.0, 0.5, {1e9, 1000.0, 1e9});
     const double along = 1000.0 / std::cos(0.3); // the first axis has more to do
     const double t = std::cbrt(6.0 * 0.5 / along);
     CHECK(std::sqrt(cell.largest_from_rest(1)) == Approx(0.5 * along * t * t));
@@ -72,23 +72,23 @@ TEST_CASE("the limits of a move keep those of the axes, whatever the motion", "[
     CAPTURE("seed 72");
     for (int run = 0; run < 2000; ++run) {
         const Wave wave{{unit(random), unit(random)}, {2.0 * unit(random), 6.0 * unit(random)}};
-        const JerkCell cell = wave.cell(10.0 * unit(random), 0.01 + 0.1 * unit(random), {1000.0, 2e4, 1e4});
+        const JerkCell<double> cell = wave.cell(10.0 * unit(random), 0.01 + 0.1 * unit(random), {1000.0, 2e4, 1e4});
         const MoveLimits most = cell.move_limits(cell.cap_sq);
         REQUIRE(most.speed_mm_s * most.speed_mm_s <= cell.cap_sq * (1.0 + 1e-12));
         for (const auto& end : cell.end) {
-            for (const unsigned k : indices(cell.axes)) {
+            for (const unsigned k : indices(cell.limits.axes)) {
                 const double v = most.speed_mm_s;
                 const double a = std::fabs(end[k].first) * most.acceleration_mm_s2 + std::fabs(end[k].second) * v * v;
                 const double j = std::fabs(end[k].first) * most.jerk_mm_s3 +
                                  3.0 * std::fabs(end[k].second) * v * most.acceleration_mm_s2;
-                REQUIRE(a <= end[k].most_forward * (1.0 + 1e-12));
-                REQUIRE(j <= cell.jerk_mm_s3[k] * (1.0 + 1e-12));
+                REQUIRE(a <= cell.limits.acceleration_mm_s2[k] * (1.0 + 1e-12));
+                REQUIRE(j <= cell.limits.jerk_mm_s3[k] * (1.0 + 1e-12));
             }
         }
     }
-    const JerkCell straight = Wave{{0.0, 0.0}, {1.0, 1.0}}.cell(0.0, 0.5, {1000.0, 2e4, 1e4});
+    const JerkCell<double> straight = Wave{{0.0, 0.0}, {1.0, 1.0}}.cell(0.0, 0.5, {1000.0, 2e4, 1e4});
     CHECK(straight.straight(straight.cap_sq));
     const double steepest = std::max(std::fabs(straight.end[0][0].first), std::fabs(straight.end[0][1].first));
-    CHECK(straight.move_limits(straight.cap_sq).jerk_mm_s3 == Approx(straight.jerk_mm_s3[0] / steepest));
+    CHECK(straight.move_limits(straight.cap_sq).jerk_mm_s3 == Approx(straight.limits.jerk_mm_s3[0] / steepest));
     CHECK_FALSE(Wave{{0.5, 0.5}, {3.0, 1.0}}.cell(5.0, 0.5, {1000.0, 2e4, 1e4}).straight(1e4));
 }

@@ -32,9 +32,9 @@ TEST_CASE("two cells whose bends differ have a stop between them, in each place 
     }
     const auto limits = MotionLimits<double>::make(machine).value();
     std::array<Cell<double>, 8> cells;
-    std::array<JerkNode, 9> nodes;
+    std::array<JerkNode<double>, 9> nodes;
     std::array<LegNode<double>, 9> scratch;
-    JerkWindow<double> window(limits, {cells, nodes, scratch});
+    JerkWindow<double, double> window(limits, {cells, nodes, scratch});
     const double fast_sq = 50.0 * 50.0;
     for (const double bend_per_mm : {0.0, 0.2, 0.2, 0.2, -0.2, -0.2}) {
         window.append(cell_with_bend(bend_per_mm), fast_sq, fast_sq, fast_sq);

@@ -15,21 +15,42 @@ namespace {
 
 constexpr std::uint32_t seed = 91;
 constexpr double about = 1e-3; // of a time that motions are compared by
+template <class R>
+constexpr double rounding = std::is_same_v<R, double> ? 1e-7 : 4e-6; // of lengths and speeds
 
 struct Leg {
-    std::vector<JerkCell> cells;
+    std::vector<JerkCell<double>> cells;
     std::vector<double> at_most_sq; // at the end of each
-    std::vector<LegNode<double>> nodes;
+};
 
-    [[nodiscard]] LegPlan begin(const SpeedState& start, std::size_t first = 0) {
-        nodes.resize(cells.size() + 1);
-        LegPlan plan(nodes);
+/// A plan of the leg from cell `first` on, and its memory.
+template <class R>
+struct Planned {
+    explicit Planned(const Leg& leg, const SpeedState& start = {0.0, 0.0}, std::size_t first = 0,
+                     const std::vector<double>& known = {})
+        : nodes(leg.cells.size() + 1), plan(nodes) {
         plan.begin(start);
-        for (std::size_t i = first; i < cells.size(); ++i) {
-            plan.add(cells[i], at_most_sq[i]);
+        for (std::size_t i = first; i < leg.cells.size(); ++i) {
+            plan.add(cell_in<R>(leg.cells[i]), static_cast<R>(leg.at_most_sq[i]));
+            if (!known.empty()) {
+                plan.know(static_cast<R>(known[i]));
+            }
         }
-        return plan;
     }
+    /// b at the start of every cell, and 0; the middles.
+    void read() {
+        b.assign(plan.cells() + 1, 0.0);
+        middle_sq.assign(plan.cells(), 0.0);
+        plan.each_cell([&](std::size_t i, double b_i, double m_i) {
+            b[i] = b_i;
+            middle_sq[i] = m_i;
+        });
+    }
+
+    std::vector<LegNode<R>> nodes;
+    LegPlan<R> plan;
+    std::vector<double> b;
+    std::vector<double> middle_sq;
 };
 
 Leg leg_along(const Wave& wave, double start, std::size_t count, double length, const JerkLimits& limits) {
@@ -44,7 +65,7 @@ Leg leg_along(const Wave& wave, double start, std::size_t count, double length, 
     // What acceleration alone allows, about: from both ends and in bends.
     const double steepest = 2.0 * std::sqrt(2.0) * limits.acceleration;
     double from_start = 0.0;
-    for (const JerkCell& cell : leg.cells) {
+    for (const JerkCell<double>& cell : leg.cells) {
         from_start += cell.length_mm;
         const auto& end = cell.end[1];
         const double bend = std::max(std::hypot(end[0].second, end[1].second), 1e-6);
@@ -59,38 +80,39 @@ Leg leg_along(const Wave& wave, double start, std::size_t count, double length, 
 }
 
 // Checks a plan of the cells from `first` on; returns the time that it takes.
-double checked(const Leg& leg, const LegPlan& plan, std::size_t first, bool moving) {
-    const std::size_t n = plan.cells();
+template <class R>
+double checked(const Leg& leg, Planned<R>& planned, std::size_t first, bool moving) {
+    planned.read();
+    const std::size_t n = planned.plan.cells();
     double time = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const LegNode<double>& node = plan.node(i);
-        const double next = i + 1 < n ? plan.node(i + 1).b : 0.0;
-        const JerkCell& cell = leg.cells[first + i];
+        const double b = planned.b[i];
+        const double next = planned.b[i + 1];
+        const JerkCell<double>& cell = leg.cells[first + i];
         const double l = cell.length_mm;
-        CAPTURE(i, n, node.b, node.middle_sq, next);
+        CAPTURE(i, n, b, planned.middle_sq[i], next);
         if ((i == 0 && !moving) || i + 1 == n) {
-            const double b = i == 0 ? next : node.b;
-            REQUIRE(b > 0.0);
-            REQUIRE(b <= cell.largest_from_rest(i == 0 ? 1 : 0) * (1.0 + 1e-9));
-            time += 3.0 * l / std::sqrt(b);
+            const double end = i == 0 ? next : b;
+            REQUIRE(end > 0.0);
+            REQUIRE(end <= cell.largest_from_rest(i == 0 ? 1 : 0) * (1.0 + rounding<R>));
+            time += 3.0 * l / std::sqrt(end);
             continue;
         }
-        const double slope = 2.0 * (node.middle_sq - node.b) / l;
-        const double u = 2.0 * (node.b - 2.0 * node.middle_sq + next) / (l * l);
-        const JerkUse use = use_of(cell, wide(node.b), wide(slope), wide(u));
+        const double slope = 2.0 * (planned.middle_sq[i] - b) / l;
+        const double u = 2.0 * (b - 2.0 * planned.middle_sq[i] + next) / (l * l);
+        const JerkUse use = use_of(cell, wide(b), wide(slope), wide(u));
         REQUIRE(use.jerk <= 1.0L + 1e-9L);
         REQUIRE(use.acceleration <= 1.0L + 1e-9L);
-        REQUIRE(use.speed_sq <= 1.0L + 1e-9L);
+        REQUIRE(use.speed_sq <= 1.0L + wide(rounding<R>));
         REQUIRE(use.least_sq > 0.0L);
         // b and b' of the next cell follow.
         if (i + 2 < n) {
-            const LegNode<double>& after = plan.node(i + 1);
-            const double next_slope = 2.0 * (after.middle_sq - after.b) / leg.cells[first + i + 1].length_mm;
-            REQUIRE(next_slope == Approx(slope + u * l).margin(1e-7 * (node.b + next) / l));
+            const double next_slope = 2.0 * (planned.middle_sq[i + 1] - next) / leg.cells[first + i + 1].length_mm;
+            REQUIRE(next_slope == Approx(slope + u * l).margin(rounding<R> * (b + next) / l));
         }
         for (int k = 0; k < 20; ++k) {
             const double s = l * (k + 0.5) / 20.0;
-            time += l / 20.0 / std::sqrt(node.b + s * (slope + 0.5 * s * u));
+            time += l / 20.0 / std::sqrt(b + s * (slope + 0.5 * s * u));
         }
     }
     return time;
@@ -98,7 +120,7 @@ double checked(const Leg& leg, const LegPlan& plan, std::size_t first, bool movi
 
 } // namespace
 
-TEST_CASE("legs along curves keep every limit, from rest and in motion", "[feed_plan][jerk]") {
+TEMPLATE_TEST_CASE("legs along curves keep every limit, from rest and in motion", "[feed_plan][jerk]", double, float) {
     std::mt19937 random{seed};
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     CAPTURE(seed);
@@ -108,33 +130,26 @@ TEST_CASE("legs along curves keep every limit, from rest and in motion", "[feed_
         JerkLimits limits;
         limits.jerk = 20000.0 + 80000.0 * unit(random);
         const Wave wave{{unit(random), 0.5 * unit(random)}, {unit(random), 2.0 * unit(random)}};
-        Leg leg = leg_along(wave, 0.0, 120, 0.1 + 0.1 * unit(random), limits);
-        LegPlan whole = leg.begin({0.0, 0.0});
-        REQUIRE(whole.fastest());
-        CHECK(whole.seconds() == Approx(checked(leg, whole, 0, false)).epsilon(about));
+        const Leg leg = leg_along(wave, 0.0, 120, 0.1 + 0.1 * unit(random), limits);
+        Planned<TestType> whole(leg);
+        REQUIRE(whole.plan.fastest());
+        const double whole_s = checked(leg, whole, 0, false);
+        CHECK(static_cast<double>(whole.plan.seconds()) == Approx(whole_s).epsilon(about));
 
-        // From the middle of the plan on, with what is known of it, and with nothing.
+        // From the middle of the plan on, with what is known of it.
         constexpr std::size_t first = 40;
-        const SpeedState start{whole.node(first).b, whole.node(first).slope};
-        std::vector<double> known;
-        for (std::size_t i = first; i < leg.cells.size(); ++i) {
-            known.push_back(whole.node(i).middle_sq);
-        }
-        const double whole_s = whole.seconds();
-        LegPlan rest(leg.nodes);
-        rest.begin(start);
-        for (std::size_t i = first; i < leg.cells.size(); ++i) {
-            rest.add(leg.cells[i], leg.at_most_sq[i]);
-            rest.know(known[i - first]);
-        }
-        if (!rest.fastest()) {
+        const double start = whole.b[first];
+        Planned<TestType> rest(leg, {start, 2.0 * (whole.middle_sq[first] - start) / leg.cells[first].length_mm}, first,
+                               whole.middle_sq);
+        if (!rest.plan.fastest()) {
             continue;
         }
         ++moving_plans;
-        CHECK(rest.node(0).b == start.b);
-        CHECK(rest.node(0).slope == start.slope);
-        CHECK(rest.seconds() == Approx(checked(leg, rest, first, true)).epsilon(about));
-        CHECK(rest.seconds() < whole_s);
+        const double rest_s = checked(leg, rest, first, true);
+        CHECK(rest.b[0] == start);
+        CHECK(rest.middle_sq[0] == Approx(whole.middle_sq[first]));
+        CHECK(static_cast<double>(rest.plan.seconds()) == Approx(rest_s).epsilon(about));
+        CHECK(rest_s < whole_s);
     }
     CHECK(moving_plans >= 39);
 }
@@ -144,9 +159,9 @@ TEST_CASE("a straight line takes the time of the seven phases, and little more",
     const double share = std::cos(0.3); // of the axis that has most to do
     const JerkLimits limits{1000.0, 20000.0, 10000.0};
     for (const std::size_t cells : {80U, 200U}) {
-        Leg leg = leg_along(line, 0.0, cells, 0.25, limits);
+        const Leg leg = leg_along(line, 0.0, cells, 0.25, limits);
         double distance = 0.0;
-        for (const JerkCell& cell : leg.cells) {
+        for (const JerkCell<double>& cell : leg.cells) {
             distance += cell.length_mm;
         }
         const double jerk = limits.jerk / share;
@@ -157,8 +172,8 @@ TEST_CASE("a straight line takes the time of the seven phases, and little more",
                             std::sqrt(0.25 * acceleration * acceleration * phase * phase + acceleration * distance);
         const double v = std::min(100.0, most);
         const double time = distance / v + v / acceleration + phase;
-        LegPlan plan = leg.begin({0.0, 0.0});
-        REQUIRE(plan.fastest());
+        Planned<double> plan(leg);
+        REQUIRE(plan.plan.fastest());
         const double took = checked(leg, plan, 0, false);
         CAPTURE(cells, distance, time, took);
         CHECK(took >= time * (1.0 - 1e-6));
@@ -166,7 +181,8 @@ TEST_CASE("a straight line takes the time of the seven phases, and little more",
     }
 }
 
-TEST_CASE("a motion that is possible is found where nothing is known of the leg", "[feed_plan][jerk]") {
+TEMPLATE_TEST_CASE("a motion that is possible is found where nothing is known of the leg", "[feed_plan][jerk]", double,
+                   float) {
     std::mt19937 random(seed + 1);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int trial = 0; trial < 40; ++trial) {
@@ -175,11 +191,11 @@ TEST_CASE("a motion that is possible is found where nothing is known of the leg"
         const Wave wave{{unit(random), 0.5 * unit(random)}, {unit(random), 2.0 * unit(random)}};
         Leg leg = leg_along(wave, 0.0, 60 + 10 * static_cast<std::size_t>(trial), 0.1 + 0.1 * unit(random), limits);
         std::ranges::fill(leg.at_most_sq, 0.0);
-        LegPlan slow = leg.begin({0.0, 0.0});
-        REQUIRE(slow.slow());
+        Planned<TestType> slow(leg);
+        REQUIRE(slow.plan.slow());
         const double slow_s = checked(leg, slow, 0, false);
-        LegPlan fast = leg.begin({0.0, 0.0});
-        REQUIRE(fast.fastest());
+        Planned<TestType> fast(leg);
+        REQUIRE(fast.plan.fastest());
         CHECK(checked(leg, fast, 0, false) < slow_s);
     }
 }

@@ -15,7 +15,6 @@ namespace {
 /// A line of one leg in a window, and memory for it.
 struct Line {
     explicit Line(std::size_t spare) : machine(machine_of(1, 100.0, 1000.0, 100.0)) {
-        machine.jerk_tier = JerkTier::optimal;
         machine.axis[0].max_jerk_mm_s3 = 1e5;
         limits = MotionLimits<double>::make(machine).value();
         ListSource<double> source(BezierPath(8, line_shape(1, 3, {0.5})));
@@ -23,7 +22,7 @@ struct Line {
         cells.resize(planned.cells.size() + spare);
         nodes.resize(cells.size() + 1);
         scratch.resize(nodes.size());
-        window.emplace(limits, JerkStorage<double>{cells, nodes, scratch});
+        window.emplace(limits, JerkStorage<double, double>{cells, nodes, scratch});
         for (const PlannedCell<double>& c : planned.cells) {
             window->append(c.cell, c.cap_sq, c.cap_sq, c.exit_sq);
         }
@@ -37,9 +36,9 @@ struct Line {
     MotionLimits<double> limits{};
     Planned<double> planned;
     std::vector<Cell<double>> cells;
-    std::vector<JerkNode> nodes;
+    std::vector<JerkNode<double>> nodes;
     std::vector<LegNode<double>> scratch;
-    std::optional<JerkWindow<double>> window;
+    std::optional<JerkWindow<double, double>> window;
     std::vector<double> end_mm; ///< of each cell
 };
 
@@ -63,7 +62,7 @@ TEST_CASE("a straight leg rests where a cell ends, and cuts nothing off that is 
     for (const double beyond : {-1e-6, -1e-8, 1e-6}) {
         for (std::size_t i = 1; i < size; ++i) {
             Line line(0); // nor is there room for a cut
-            StraightLeg<double> leg(*line.window);
+            StraightLeg<double, double> leg(*line.window);
             REQUIRE(leg.cells() == size);
             const double way = line.end_mm[i] - from * line.end_mm[0];
             CAPTURE(beyond, i, size, way);
@@ -88,7 +87,7 @@ TEST_CASE("a straight leg rests as near as it can, and cuts the cell there", "[f
     for (std::size_t i = 1; i < size; ++i) {
         for (const std::size_t spare : {0U, 1U}) {
             Line line(spare);
-            StraightLeg<double> leg(*line.window);
+            StraightLeg<double, double> leg(*line.window);
             const double cell = line.end_mm[i] - line.end_mm[i - 1];
             const double way = line.end_mm[i] - 0.3 * cell - from * line.end_mm[0];
             CAPTURE(i, spare, way);

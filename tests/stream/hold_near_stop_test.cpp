@@ -19,18 +19,15 @@ constexpr std::size_t near_stop = 12;        // segments
 constexpr std::size_t most_planned = 20'000; // of a program without a hold; longer ones only take time
 constexpr std::size_t late = 3;              // segments behind the stop where a hold may stand; 1 was seen
 constexpr std::size_t restart = 100;         // segments that braking and beginning again may take; 49 were seen
-constexpr std::size_t tried_again = 500;     // by an optimal plan, which may take a leg from stop to stop for a while
+constexpr std::size_t tried_again = 500;     // by a jerk plan, which may take a leg from stop to stop for a while
 template <Scalar S>
 constexpr Real slack = std::same_as<S, float> ? 5e-2L : 0.0L; // of an acceleration
 
-enum class PlanKind { acceleration, optimal, bounded };
-
-MachineSettings machine_for(Random& random, PlanKind planner, int axes) {
+MachineSettings machine_for(Random& random, bool jerk_limited, int axes) {
     MachineSettings machine = random_quick_machine(random, axes);
-    if (planner != PlanKind::acceleration) {
+    if (jerk_limited) {
         limit_jerk(random, machine);
         machine.axis[0].max_jerk_mm_s3 = std::min(20.0 * machine.axis[0].max_acceleration_mm_s2, 1e9);
-        machine.jerk_tier = planner == PlanKind::bounded ? JerkTier::bounded : JerkTier::optimal;
     }
     return machine;
 }
@@ -64,11 +61,11 @@ struct Held {
 };
 
 /// @param most  segments; where there are more it hangs
-template <Scalar S>
+template <Scalar S, Floating R = double>
 Held hold_at(const std::vector<CurveSegment<S>>& path, const MotionLimits<S>& limits, std::size_t at, bool by_override,
              std::size_t pause, std::size_t most) {
     ListSource<S> source(path);
-    AnyTrajectory<S> any(source, limits, 64);
+    AnyTrajectory<S, R> any(source, limits, 64);
     Trajectory<S>& trajectory = any.trajectory();
     Held out;
     FeedSegment segment;
@@ -127,17 +124,17 @@ std::vector<CurveSegment<S>> path_of(const Program& program) {
     return program.polyline ? run_curve<S>(polyline, feeds) : run_curve<S>(spline, feeds);
 }
 
-template <Scalar S>
-void hold_near_stops(Random& random, PlanKind planner, int& holds) {
+template <Scalar S, Floating R>
+void hold_near_stops(Random& random, bool jerk_limited, int& holds) {
     const int axes = random.integer(1, 3);
     MachineSettings machine;
     do {
-        machine = machine_for(random, planner, axes);
+        machine = machine_for(random, jerk_limited, axes);
     } while (!MotionLimits<S>::make(machine).has_value());
     const Program program = short_moves(random, axes);
     const auto limits = MotionLimits<S>::make(machine).value();
     const std::vector<CurveSegment<S>> path = path_of<S>(program);
-    const Held plain = hold_at<S>(path, limits, most_planned, false, 0, most_planned);
+    const Held plain = hold_at<S, R>(path, limits, most_planned, false, 0, most_planned);
     const std::size_t planned = plain.run.segments.size();
     if (plain.run.endless || planned < 4) {
         return;
@@ -152,7 +149,7 @@ void hold_near_stops(Random& random, PlanKind planner, int& holds) {
         const bool by_override = random.chance(0.3);
         const auto pause = static_cast<std::size_t>(random.chance(0.5) ? random.integer(1, 15) : 1000);
         const std::size_t stop = next_rest(plain.run.segments, at, static_cast<unsigned>(axes));
-        const Held held = hold_at<S>(path, limits, at, by_override, pause, 2 * planned + pause + 2 * tried_again);
+        const Held held = hold_at<S, R>(path, limits, at, by_override, pause, 2 * planned + pause + 2 * tried_again);
         const std::size_t took = held.run.segments.size();
         CAPTURE(i, at, by_override, pause, stop, planned, took, held.held, held.resumed);
         ++holds;
@@ -160,19 +157,19 @@ void hold_near_stops(Random& random, PlanKind planner, int& holds) {
         REQUIRE(held.run.finished);
         require_limits(held.run, machine, slack<S>);
         REQUIRE(held.held <= stop + late); // 0 where it had gone on before it stood
-        REQUIRE(took <= planned + pause + (planner == PlanKind::optimal ? planned + tried_again : restart));
+        REQUIRE(took <= planned + pause + (jerk_limited ? planned + tried_again : restart));
     }
 }
 
-template <Scalar S>
-void hold_rounds(PlanKind planner, std::uint64_t first) {
+template <class Kind>
+void hold_rounds(bool jerk_limited, std::uint64_t first) {
     const int count = rounds(400, 20'000) / holds_a_program;
     int holds = 0;
     for (int round = static_cast<int>(first_round()); round < std::max(count, static_cast<int>(first_round()) + 1);
          ++round) {
         CAPTURE(first, round);
         Random random(first + static_cast<std::uint64_t>(round));
-        hold_near_stops<S>(random, planner, holds);
+        hold_near_stops<typename Kind::S, typename Kind::R>(random, jerk_limited, holds);
     }
     CAPTURE(first, holds);
     CHECK((first_round() > 0 || 10 * holds > 9 * count * holds_a_program));
@@ -182,16 +179,12 @@ void hold_rounds(PlanKind planner, std::uint64_t first) {
 
 TEMPLATE_TEST_CASE("a hold beside a stop of an acceleration-limited motion", "[stream][steering][beside]", double,
                    float, Fixed) {
-    hold_rounds<TestType>(PlanKind::acceleration, seed);
+    hold_rounds<Planning<TestType, double>>(false, seed);
 }
 
-TEMPLATE_TEST_CASE("a hold beside a stop of an optimal motion", "[stream][steering][beside][jerk]", double, Fixed) {
-    hold_rounds<TestType>(PlanKind::optimal, seed + 1'000'000);
-}
-
-TEMPLATE_TEST_CASE("a hold beside a stop of an averaged motion", "[stream][steering][beside][jerk][smooth]", double,
-                   Fixed) {
-    hold_rounds<TestType>(PlanKind::bounded, seed + 2'000'000);
+TEMPLATE_TEST_CASE("a hold beside a stop of a jerk-limited motion", "[stream][steering][beside][jerk]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    hold_rounds<TestType>(true, seed + 1'000'000);
 }
 
 TEST_CASE("a hold that ends exactly on a stop goes on", "[stream][steering][beside]") {

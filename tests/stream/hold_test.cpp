@@ -24,19 +24,20 @@ TEMPLATE_TEST_CASE("no segment of a hold is spent at standstill", "[stream][stee
     }
 }
 
-TEMPLATE_TEST_CASE("an override holds to the end of a leg, whatever is held on the way", "[stream][jerk][smooth]",
-                   double, Fixed) {
+TEMPLATE_TEST_CASE("an override holds to the end of a leg, whatever is held on the way", "[stream][jerk]",
+                   DoubleInDouble, FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
-    machine.jerk_tier = JerkTier::bounded;
     for (const double jerk : {1e5, 1e7}) {
         machine.axis[0].max_jerk_mm_s3 = jerk;
         for (const double ratio : {0.05, 0.2}) {
             const Event slow{0, Order::override_feed, ratio};
             const BezierPath path{line_shape(1, 3, {2.0 * ratio})};
-            const SteeredRun plain = run_steered<TestType>(path, machine, 64, {slow});
+            const SteeredRun plain = run_steered<S, R>(path, machine, 64, {slow});
             for (std::size_t at = 1; at < plain.segments.size(); at += 2) {
                 const SteeredRun run =
-                    run_steered<TestType>(path, machine, 64, {slow, {at, Order::hold}, {at + 60, Order::resume}});
+                    run_steered<S, R>(path, machine, 64, {slow, {at, Order::hold}, {at + 60, Order::resume}});
                 CAPTURE(jerk, ratio, at);
                 REQUIRE(run.finished);
                 REQUIRE(run.segments.back().end == plain.segments.back().end);

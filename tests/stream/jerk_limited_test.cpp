@@ -32,26 +32,30 @@ void require_random_machines(std::uint64_t first, int rounds, int fewest_axes, T
     }
     CHECK(most > 0.9L); // the machines were used
     CHECK(2 * runs > rounds);
-    CHECK(slow * 10 <= runs);
+    CHECK(slow * 5 <= runs); // most of all in windows of 32 cells
 }
 
 } // namespace
 
-TEMPLATE_TEST_CASE("jerk-limited machines, splines and polylines", "[stream][jerk]", double, Fixed) {
-    using S = TestType;
+TEMPLATE_TEST_CASE("jerk-limited machines, splines and polylines", "[stream][jerk]", DoubleInDouble, FixedInDouble,
+                   FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     require_random_machines(5000, rounds(40), 1, [](Random& random, const MachineSettings& machine) {
         const Program program = random_program(random, machine.axes);
         std::optional<Stream> stream;
         if (MotionLimits<S>::make(machine).has_value()) {
-            stream = stream_of<S>(program, machine, random.chance(0.5) ? 32 : 256);
+            stream = stream_of<S, R>(program, machine, random.chance(0.5) ? 32 : 256);
             require_ends(*stream, machine, program);
         }
         return stream;
     });
 }
 
-TEMPLATE_TEST_CASE("jerk-limited machines and Bezier segments", "[stream][jerk]", double, Fixed) {
-    using S = TestType;
+TEMPLATE_TEST_CASE("jerk-limited machines and Bezier segments", "[stream][jerk]", DoubleInDouble, FixedInDouble,
+                   FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     require_random_machines(6000, rounds(25), 2, [](Random& random, const MachineSettings& machine) {
         const BezierPath path = random_path(random, machine.axes, 6, random.decades(0.05, 50.0), 0.3, 0.3);
         std::optional<Stream> stream;
@@ -59,7 +63,7 @@ TEMPLATE_TEST_CASE("jerk-limited machines and Bezier segments", "[stream][jerk]"
         const auto limits = MotionLimits<double>::make(machine);
         if (MotionLimits<S>::make(machine).has_value() &&
             plan_of<double>(path, machine, 512).seconds() * limits->segments_per_s <= 1e5) {
-            stream = stream_of<S>(path, machine, 256);
+            stream = stream_of<S, R>(path, machine, 256);
         }
         return stream;
     });
@@ -95,47 +99,47 @@ TEMPLATE_TEST_CASE("a jerk limit that no sampled motion reaches is kept without 
     CHECK(runs > 0);
 }
 
-TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]") {
-    for (const JerkTier tier : {JerkTier::bounded, JerkTier::optimal}) {
-        for (const double length : {0.1, 1.0, 10.0, 100.0}) {
-            for (const double jerk : {1e4, 3e4, 1e5}) {
-                MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-                machine.jerk_tier = tier;
-                machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
-                BezierPath path{cubic_shape(length / 3.0, 0.0, length / 1.5, 0.0, length, 0.0)};
-                const Stream stream = stream_of<double>(path, machine, 256);
-                const double segment_s = stream.segments[0].duration_ticks / 8e6;
-                const double seconds = static_cast<double>(stream.segments.size()) * segment_s;
-                const double least = SCurveProfile(length, {100.0, 1000.0, jerk}).duration_s();
-                CAPTURE(length, jerk, seconds, least);
-                // A mean ends up to two segments after the motion that it is of
-                CHECK(seconds <=
-                      1.001 * least + (tier == JerkTier::optimal ? 3.0 : 5.0) * segment_s); // the dwell at the end
-                CHECK(seconds >= least);
-            }
+TEMPLATE_TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]", double, float) {
+    for (const double length : {0.1, 1.0, 10.0, 100.0}) {
+        for (const double jerk : {1e4, 3e4, 1e5}) {
+            MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+            machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
+            BezierPath path{cubic_shape(length / 3.0, 0.0, length / 1.5, 0.0, length, 0.0)};
+            const Stream stream = stream_of<double, TestType>(path, machine, 256);
+            const double segment_s = stream.segments[0].duration_ticks / 8e6;
+            const double seconds = static_cast<double>(stream.segments.size()) * segment_s;
+            const double least = SCurveProfile(length, {100.0, 1000.0, jerk}).duration_s();
+            CAPTURE(length, jerk, seconds, least);
+            CHECK(seconds <= (std::same_as<TestType, float> ? 1.003 : 1.001) * least + 3.0 * segment_s); // with a dwell
+            CHECK(seconds >= least);
         }
     }
 }
 
-TEMPLATE_TEST_CASE("a jerk limit that is reached within the last digit of a cell", "[stream][jerk]", double, Fixed) {
+TEMPLATE_TEST_CASE("a jerk limit that is reached within the last digit of a cell", "[stream][jerk]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     // The phases of a straight move are shorter than what Fixed holds of a cell's length.
-    // 6 s with sanitizers: 13 s of slow motion, of which the optimal plan has a set of speeds for each cell.
+    // 6 s with sanitizers: 13 s of slow motion, of which the plan has many cells.
     for (const double jerk : {1e6, 1e9}) {
         MachineSettings machine = machine_of(2, 100.0, 20.0, 100.0);
         machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
         CAPTURE(jerk);
         const BezierPath path{line_shape(2, 1, {60.0, 0.0}), line_shape(2, 1, {0.0, 40.0}),
                               line_shape(2, 1, {-0.3, 0.0})};
-        const Stream stream = stream_of<TestType>(path, machine, 256);
+        const Stream stream = stream_of<S, R>(path, machine, 256);
         require_limits(stream, machine);
         require_ends(stream, machine, {}, {59.7, 40.0});
     }
 }
 
-TEMPLATE_TEST_CASE("a bend that begins behind the first of all cells", "[stream][jerk]", double, Fixed) {
+TEMPLATE_TEST_CASE("a bend that begins behind the first of all cells", "[stream][jerk]", DoubleInDouble, FixedInDouble,
+                   FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     // From a straight line into a circle: the acceleration jumps, but for a stop.
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.jerk_tier = JerkTier::optimal;
     machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
     for (const double length : {0.01, 0.03, 0.1, 0.3}) {
         for (const double radius : {0.1, 0.3, 1.0, 3.0}) {
@@ -143,7 +147,7 @@ TEMPLATE_TEST_CASE("a bend that begins behind the first of all cells", "[stream]
             const BezierPath path{line_shape(2, 1, {length, 0.0}),
                                   cubic_shape(handle, 0.0, radius, radius - handle, radius, radius)};
             CAPTURE(length, radius);
-            const Stream stream = stream_of<TestType>(path, machine, 64);
+            const Stream stream = stream_of<S, R>(path, machine, 64);
             require_limits(stream, machine);
             require_ends(stream, machine, {}, {length + radius, radius});
         }

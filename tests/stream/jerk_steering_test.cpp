@@ -14,9 +14,8 @@ namespace {
 
 constexpr std::uint64_t seed = 2718;
 
-MachineSettings jerk_machine(JerkTier tier) {
+MachineSettings jerk_machine() {
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.jerk_tier = tier;
     for (AxisSettings& axis : machine.axis) {
         axis.max_jerk_mm_s3 = 2e4;
     }
@@ -33,8 +32,10 @@ std::size_t rest_after(const SteeredRun& run, std::size_t at) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stream][jerk][steering]", double, Fixed) {
-    using S = TestType;
+TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stream][jerk][steering]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     int steered = 0;
     Real most = 0.0L;
     const int runs = rounds(30, 600);
@@ -50,13 +51,13 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
             continue;
         }
         const std::size_t window = random.chance(0.5) ? 32 : 256;
-        const SteeredRun plain = run_steered<S>(path, machine, window, {});
+        const SteeredRun plain = run_steered<S, R>(path, machine, window, {});
         CAPTURE(seed, round, window, plain.segments.size());
         if (plain.endless || plain.segments.size() > 20'000) {
             continue; // minutes of the machine's time
         }
         const std::vector<Event> events = random_events_and_abort(random, plain.segments.size());
-        const SteeredRun run = run_steered<S>(path, machine, window, events);
+        const SteeredRun run = run_steered<S, R>(path, machine, window, events);
         most = std::max(most, require_limits(run, machine).jerk);
         REQUIRE(run.finished);
         for (unsigned k = 0; k < static_cast<unsigned>(axes) && run.activity != Activity::aborted; ++k) {
@@ -68,12 +69,14 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
     CHECK(most > 0.9L);
 }
 
-TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[stream][jerk][steering]", double, Fixed) {
-    using S = TestType;
-    const MachineSettings machine = jerk_machine(JerkTier::optimal);
+TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[stream][jerk][steering]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
+    const MachineSettings machine = jerk_machine();
     const BezierPath path{line_shape(2, 1, {60.0, 0.0})};
     const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
-    const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+    const SteeredRun plain = run_steered<S, R>(path, machine, 256, {});
     for (std::size_t at = 3; at < plain.segments.size(); at += 31) {
         // Where the machine is when the segment starts that the hold acts with, a segment ahead
         const std::size_t then = std::min(at + 1, plain.segments.size() - 1);
@@ -81,7 +84,7 @@ TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[st
         const double scale = static_cast<double>(units_per_mm(machine.axis[0])) * segment_s;
         const MoveState state{0.0, static_cast<double>(m.v0) / scale, static_cast<double>(m.a0) / (scale * segment_s)};
         const double needs = SCurveProfile::to_rest(state, {100.0, 1000.0, 2e4}).duration_s();
-        const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
+        const SteeredRun run = run_steered<S, R>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
         require_limits(run, machine);
         const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
         CAPTURE(at, state.speed_mm_s, state.acceleration_mm_s2, took, needs);
@@ -93,53 +96,50 @@ TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[st
 }
 
 TEMPLATE_TEST_CASE("a hold on a curve takes little more than braking with as much acceleration",
-                   "[stream][jerk][steering]", double, Fixed) {
-    using S = TestType;
-    for (const JerkTier tier : {JerkTier::bounded, JerkTier::optimal}) {
-        const MachineSettings machine = jerk_machine(tier);
-        const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0),
-                              cubic_shape(20.0, 30.0, 40.0, 30.0, 60.0, -20.0)};
-        const auto limits = MotionLimits<S>::make(machine).value();
-        const double segment_s = limits.segment_ticks / 8e6;
-        const SteeredRun plain = run_steered<S>(path, machine, 256, {});
-        const Track<S> track(path, machine);
-        typename Track<S>::Place place;
-        for (std::size_t at = 7; at + 1 < plain.segments.size(); at += 97) {
-            static_cast<void>(track.find(plain.segments[at + 1], place));
-            Real speed_sq = 0.0L;
-            for (unsigned k = 0; k < 2; ++k) {
-                const AxisMotion m = motion_of(plain.segments[at + 1], k);
-                const Real v = static_cast<Real>(m.v0) / (units_per_mm(machine.axis[k]) * real(segment_s));
-                speed_sq += v * v;
-            }
-            // Until the acceleration A is taken back with the jerk J the speed rises by A^2 / (2 J)
-            const double rise_s = 1000.0 / (2.0 * 2e4);
-            const double braking = static_cast<double>(track.braking_s(place, std::sqrt(speed_sq))) + rise_s;
-            const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
-            require_limits(run, machine);
-            const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
-            CAPTURE(at, std::sqrt(static_cast<double>(speed_sq)), took, braking);
-            // And it takes A / J to take it back, to brake as hard, and to end that. Averaged over T, the path is
-            // braked with J T at most, T after the end of acceleration.
-            const double averaged_s = to_double(Smoothing<S>(limits.smoothing_q8, limits).seconds);
-            CHECK(took <= (tier == JerkTier::optimal ? 1.1 * braking + 2.0 * 1000.0 / 2e4
-                                                     : 1.1 * braking * 1000.0 / (2e4 * averaged_s) + 3.0 * averaged_s));
-            REQUIRE(run.finished);
-            REQUIRE(run.segments.back().end[0] == plain.segments.back().end[0]);
+                   "[stream][jerk][steering]", DoubleInDouble, FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
+    const MachineSettings machine = jerk_machine();
+    const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0),
+                          cubic_shape(20.0, 30.0, 40.0, 30.0, 60.0, -20.0)};
+    const auto limits = MotionLimits<S>::make(machine).value();
+    const double segment_s = limits.segment_ticks / 8e6;
+    const SteeredRun plain = run_steered<S, R>(path, machine, 256, {});
+    const Track<S> track(path, machine);
+    typename Track<S>::Place place;
+    for (std::size_t at = 7; at + 1 < plain.segments.size(); at += 97) {
+        static_cast<void>(track.find(plain.segments[at + 1], place));
+        Real speed_sq = 0.0L;
+        for (unsigned k = 0; k < 2; ++k) {
+            const AxisMotion m = motion_of(plain.segments[at + 1], k);
+            const Real v = static_cast<Real>(m.v0) / (units_per_mm(machine.axis[k]) * real(segment_s));
+            speed_sq += v * v;
         }
+        // Until the acceleration A is taken back with the jerk J the speed rises by A^2 / (2 J)
+        const double rise_s = 1000.0 / (2.0 * 2e4);
+        const double braking = static_cast<double>(track.braking_s(place, std::sqrt(speed_sq))) + rise_s;
+        const SteeredRun run = run_steered<S, R>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
+        require_limits(run, machine);
+        const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
+        CAPTURE(at, std::sqrt(static_cast<double>(speed_sq)), took, braking);
+        // And it takes A / J to take it back, to brake as hard, and to end that.
+        CHECK(took <= 1.1 * braking + 2.0 * 1000.0 / 2e4);
+        REQUIRE(run.finished);
+        REQUIRE(run.segments.back().end[0] == plain.segments.back().end[0]);
     }
 }
 
-TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[stream][jerk][steering]", double,
-                   Fixed) {
-    using S = TestType;
-    const MachineSettings machine = jerk_machine(JerkTier::optimal);
+TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[stream][jerk][steering]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
+    const MachineSettings machine = jerk_machine();
     const auto limits = MotionLimits<S>::make(machine).value();
     const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0), line_shape(2, 1, {20.0, 30.0})};
     for (const std::size_t at : {5U, 120U, 400U, 900U}) {
         CAPTURE(at);
         ListSource<S> source(segments_of<S>(path, {}), 0, 0);
-        AnyTrajectory<S> any(source, limits, 256);
+        AnyTrajectory<S, R> any(source, limits, 256);
         SteeredRun run;
         run_steered<S>(any.trajectory(), {{at, Order::abort}}, run);
         REQUIRE(run.activity == Activity::aborted);
@@ -160,10 +160,12 @@ TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[s
     }
 }
 
-TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk][steering]", double, Fixed) {
-    using S = TestType;
+TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk][steering]", DoubleInDouble,
+                   FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     // Micrometre-short segments, as a CAM program has them
-    MachineSettings machine = jerk_machine(JerkTier::optimal);
+    MachineSettings machine = jerk_machine();
     for (AxisSettings& axis : machine.axis) {
         axis.max_acceleration_mm_s2 = 5000.0;
         axis.max_jerk_mm_s3 = 1e6;
@@ -171,7 +173,7 @@ TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk]
     const BezierPath path(3000, line_shape(2, 3, {0.003, 0.004}));
     const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
     for (const double ratio : {0.3, 0.6}) {
-        const SteeredRun run = run_steered<S>(path, machine, 512, {{60, Order::override_feed, ratio}});
+        const SteeredRun run = run_steered<S, R>(path, machine, 512, {{60, Order::override_feed, ratio}});
         require_limits(run, machine);
         const auto late = static_cast<std::size_t>(60.0 + 0.05 / segment_s);
         REQUIRE(late < run.segments.size());
@@ -185,16 +187,17 @@ TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk]
 }
 
 TEMPLATE_TEST_CASE("a pause by an override of 0 with limited jerk is no slower afterwards", "[stream][jerk][steering]",
-                   double, Fixed) {
-    using S = TestType;
+                   DoubleInDouble, FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(12)); ++round) {
         Random random(seed + round);
-        MachineSettings machine = jerk_machine(random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal);
+        MachineSettings machine = jerk_machine();
         const BezierPath path = random_path(random, 2, 6, random.decades(1.0, 20.0), 0.15, 0.3);
-        const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+        const SteeredRun plain = run_steered<S, R>(path, machine, 256, {});
         // Before it starts, and in the middle: there it has to stop and start again
         for (const std::size_t at : {std::size_t{0}, plain.segments.size() / 2}) {
-            const SteeredRun run = run_steered<S>(
+            const SteeredRun run = run_steered<S, R>(
                 path, machine, 256, {{at, Order::override_feed, 0.0}, {at + 300, Order::override_feed, 1.0}});
             CAPTURE(seed, round, at, plain.segments.size(), run.segments.size());
             require_limits(run, machine);
@@ -207,18 +210,19 @@ TEMPLATE_TEST_CASE("a pause by an override of 0 with limited jerk is no slower a
 }
 
 TEMPLATE_TEST_CASE("overrides that follow each other next to a corner leave it a stop", "[stream][jerk][steering]",
-                   double, Fixed) {
+                   DoubleInDouble, FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
     MachineSettings machine = machine_of(2, 100.0, 20.0, 100.0); // some segments in the last cell, in two phases
-    machine.jerk_tier = JerkTier::optimal;
     machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e6;
     const BezierPath path{line_shape(2, 3, {0.3, 0.0}), line_shape(2, 3, {0.0, 0.3})};
-    const SteeredRun plain = run_steered<TestType>(path, machine, 32, {});
+    const SteeredRun plain = run_steered<S, R>(path, machine, 32, {});
     const std::size_t corner = rest_after(plain, 1);
     for (std::size_t at = corner - 30; at < corner; ++at) {
-        const SteeredRun run = run_steered<TestType>(path, machine, 32,
-                                                     {{at, Order::override_feed, 0.9},
-                                                      {at + 1, Order::override_feed, 0.8},
-                                                      {at + 2, Order::override_feed, 0.7}});
+        const SteeredRun run = run_steered<S, R>(path, machine, 32,
+                                                 {{at, Order::override_feed, 0.9},
+                                                  {at + 1, Order::override_feed, 0.8},
+                                                  {at + 2, Order::override_feed, 0.7}});
         CAPTURE(at, corner);
         require_limits(run, machine);
         REQUIRE(run.finished);

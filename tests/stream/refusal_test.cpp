@@ -23,9 +23,8 @@ concept TakesLimits = requires(CurveSource<double>& curve, Limits&& limits, Plan
 static_assert(!TakesLimits<MotionLimits<double>>);
 static_assert(TakesLimits<const MotionLimits<double>&>);
 
-MachineSettings jerk_machine(JerkTier tier) {
+MachineSettings jerk_machine() {
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.jerk_tier = tier;
     machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 5e4;
     return machine;
 }
@@ -35,8 +34,7 @@ template <Scalar S>
 std::vector<MachineSettings> machines() {
     std::vector<MachineSettings> all{machine_of(2, 100.0, 1000.0, 100.0)};
     if (!std::same_as<S, float>) {
-        all.push_back(jerk_machine(JerkTier::optimal));
-        all.push_back(jerk_machine(JerkTier::bounded));
+        all.push_back(jerk_machine());
     }
     return all;
 }
@@ -62,19 +60,15 @@ TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refus
     using S = Fixed;
     ListSource<S> source = line_source<S>(2, {10.0, 5.0});
     const auto plain = limits_of<S>(machine_of(2, 100.0, 1000.0, 100.0));
-    const auto optimal = limits_of<S>(jerk_machine(JerkTier::optimal));
-    const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
+    const auto limited = limits_of<S>(jerk_machine());
     std::vector<PlannedCell<S>> window(64);
     std::vector<Cell<S>> cells(64);
-    std::vector<JerkNode> nodes(65);
-    std::vector<LegNode<double>> scratch(65);
-    std::vector<SmoothCell<S>> smooth_cells(64);
-    std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
+    std::vector<JerkNode<float>> nodes(65);
+    std::vector<LegNode<float>> scratch(65);
     AccelerationPlanner<S> acceleration_planner(window);
-    OptimalPlanner<S> optimal_planner(window, {cells, nodes, scratch});
-    BoundedPlanner<S> bounded_planner(window, {smooth_cells, places});
-    const std::array<Planner<S>*, 3> planners{&acceleration_planner, &optimal_planner, &bounded_planner};
-    const std::array limits{plain, optimal, bounded};
+    JerkPlanner<S, float> jerk_planner(window, {cells, nodes, scratch});
+    const std::array<Planner<S>*, 2> planners{&acceleration_planner, &jerk_planner};
+    const std::array limits{plain, limited};
     for (std::size_t i = 0; i < limits.size(); ++i) {
         for (std::size_t j = 0; j < planners.size(); ++j) {
             CAPTURE(i, j);
@@ -89,43 +83,32 @@ TEST_CASE("storage that is too small is refused and not written to", "[stream][r
     using S = Fixed;
     ListSource<S> source = line_source<S>(2, {10.0, 5.0});
     const auto plain = limits_of<S>(machine_of(2, 100.0, 1000.0, 100.0));
-    const auto optimal = limits_of<S>(jerk_machine(JerkTier::optimal));
-    const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
+    const auto limited = limits_of<S>(jerk_machine());
     std::vector<PlannedCell<S>> window(64);
     std::vector<Cell<S>> cells(16);
-    std::vector<JerkNode> nodes(17);
-    std::vector<LegNode<double>> scratch(17);
-    std::vector<SmoothCell<S>> smooth_cells(12);
-    std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
+    std::vector<JerkNode<float>> nodes(17);
+    std::vector<LegNode<float>> scratch(17);
     const auto first = [](auto& storage, std::size_t n) {
         return std::span(storage).first(n);
     };
     for (const std::size_t size : {0U, 1U, 9U}) {
         AccelerationPlanner<S> planner(first(window, size));
         CHECK(refusal<S>(source, plain, planner) == Error::window_too_small);
-        BoundedPlanner<S> other(first(window, size), {smooth_cells, places});
-        CHECK(refusal<S>(source, bounded, other) == Error::window_too_small);
+        JerkPlanner<S, float> other(first(window, size), {cells, nodes, scratch});
+        CHECK(refusal<S>(source, limited, other) == Error::window_too_small);
     }
     for (const std::size_t size : {0U, 15U}) {
-        OptimalPlanner<S> planner(window, {first(cells, size), nodes, scratch});
-        CHECK(refusal<S>(source, optimal, planner) == Error::window_too_small);
+        JerkPlanner<S, float> planner(window, {first(cells, size), nodes, scratch});
+        CHECK(refusal<S>(source, limited, planner) == Error::window_too_small);
     }
     for (const std::size_t size : {std::size_t{0}, nodes.size() - 1}) {
-        OptimalPlanner<S> planner(window, {cells, first(nodes, size), scratch});
-        OptimalPlanner<S> other(window, {cells, nodes, first(scratch, size)});
-        CHECK(refusal<S>(source, optimal, other) == Error::storage_too_small);
-        CHECK(refusal<S>(source, optimal, planner) == Error::storage_too_small);
+        JerkPlanner<S, float> planner(window, {cells, first(nodes, size), scratch});
+        JerkPlanner<S, float> other(window, {cells, nodes, first(scratch, size)});
+        CHECK(refusal<S>(source, limited, other) == Error::storage_too_small);
+        CHECK(refusal<S>(source, limited, planner) == Error::storage_too_small);
     }
-    for (const std::size_t size : {0U, 11U}) {
-        BoundedPlanner<S> planner(window, {first(smooth_cells, size), places});
-        CHECK(refusal<S>(source, bounded, planner) == Error::window_too_small);
-    }
-    for (const std::size_t size : {std::size_t{0}, places.size() - 1}) {
-        BoundedPlanner<S> planner(window, {smooth_cells, first(places, size)});
-        CHECK(refusal<S>(source, bounded, planner) == Error::storage_too_small);
-    }
-    BoundedPlanner<S> least(first(window, 10), {smooth_cells, places});
-    CHECK(refusal<S>(source, bounded, least) == Error::none);
+    JerkPlanner<S, float> least(first(window, 10), {cells, nodes, scratch});
+    CHECK(refusal<S>(source, limited, least) == Error::none);
 }
 
 TEMPLATE_TEST_CASE("a curve of other axes than the machine's is refused", "[stream][refusal]", double, float, Fixed) {

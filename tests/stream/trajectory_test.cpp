@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The pipeline as one object: how close it stays to the curve and to the planned speed, and that it takes no memory.
+#include "splinefeed/number/path_position.hpp"
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 #include "support/stream_reference.hpp"

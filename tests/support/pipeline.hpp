@@ -5,8 +5,7 @@
 
 #include "cell_reference.hpp"
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/bounded_planner.hpp"
-#include "splinefeed/optimal_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
 #include "splinefeed/trajectory.hpp"
 
 #include <algorithm>
@@ -110,51 +109,50 @@ void fill_bytes(std::vector<T>& storage, unsigned char value) {
     }
 }
 
+/// A scalar of the pipeline and the number type of its jerk-limited plan, for tests of both.
+template <Scalar Of, Floating In>
+struct Planning {
+    using S = Of;
+    using R = In;
+};
+using DoubleInDouble = Planning<double, double>;
+using FixedInDouble = Planning<Fixed, double>;
+using FixedInFloat = Planning<Fixed, float>;
+
 /// The pipeline that the limits ask for, with its memory. @param left_over  what every byte of that holds before; 0:
 /// what its constructors make of it
-template <Scalar S>
+template <Scalar S, Floating R = double>
 class AnyTrajectory {
 public:
     AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size,
                   unsigned char left_over = 0)
-        : window_(window_size), cells_(window_size), nodes_(window_size + 1), scratch_(window_size + 1),
-          smooth_cells_(window_size), places_(SmoothSampler<S>::places_for(limits)) {
+        : window_(window_size), cells_(window_size), nodes_(window_size + 1), scratch_(window_size + 1) {
         if (left_over != 0) {
             fill_bytes(window_, left_over);
             fill_bytes(cells_, left_over);
             fill_bytes(nodes_, left_over);
-            fill_bytes(smooth_cells_, left_over);
-            fill_bytes(places_, left_over);
         }
-        if (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded) {
-            trajectory_ =
-                Trajectory<S>::make(curve, limits, bounded_.emplace(window_, SmoothStorage<S>{smooth_cells_, places_}))
-                    .value();
-        } else if (limits.jerk_limited) {
-            trajectory_ =
-                Trajectory<S>::make(curve, limits, optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_, scratch_}))
-                    .value();
-        } else {
-            trajectory_ = Trajectory<S>::make(curve, limits, acceleration_.emplace(window_)).value();
+        Planner<S>* planner = nullptr;
+        if constexpr (!std::same_as<S, float>) {
+            if (limits.jerk_limited) {
+                planner = &jerk_.emplace(window_, JerkStorage<S, R>{cells_, nodes_, scratch_});
+            }
         }
+        trajectory_ =
+            Trajectory<S>::make(curve, limits, planner != nullptr ? *planner : acceleration_.emplace(window_)).value();
     }
     [[nodiscard]] Trajectory<S>& trajectory() { return trajectory_; }
-    /// Of the leg that the machine is on, in 1/256 of a tick; 0: it is not averaged.
-    [[nodiscard]] std::uint32_t smoothing_q8() const {
-        return bounded_ && !bounded_->plan().empty() ? bounded_->plan().oldest().smoothing_q8 : 0;
-    }
-    [[nodiscard]] std::uint64_t slow_legs() const { return optimal_ ? optimal_->plan().slow_legs() : 0; }
+    [[nodiscard]] std::uint64_t slow_legs() const { return jerk_ ? jerk_->plan().slow_legs() : 0; }
 
 private:
+    using JerkScalar = std::conditional_t<std::same_as<S, float>, double, S>;
+
     std::vector<PlannedCell<S>> window_;
     std::vector<Cell<S>> cells_;
-    std::vector<JerkNode> nodes_;
-    std::vector<LegNode<double>> scratch_;
-    std::vector<SmoothCell<S>> smooth_cells_;
-    std::vector<PathPosition> places_;
+    std::vector<JerkNode<R>> nodes_;
+    std::vector<LegNode<R>> scratch_;
     std::optional<AccelerationPlanner<S>> acceleration_;
-    std::optional<BoundedPlanner<S>> bounded_;
-    std::optional<OptimalPlanner<S>> optimal_;
+    std::optional<JerkPlanner<JerkScalar, R>> jerk_;
     Trajectory<S> trajectory_;
 };
 

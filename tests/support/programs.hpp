@@ -186,10 +186,10 @@ std::size_t most_segments(double least_s, const MotionLimits<S>& limits) {
     return std::max(std::size_t{400'000}, static_cast<std::size_t>(5.0 * least_s * to_double(limits.segments_per_s)));
 }
 
-template <class S, class Curve>
-Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t most,
-                 std::size_t window_size, Random* interleaving) {
-    AnyTrajectory<S> any(curve, limits, window_size);
+template <Scalar S, Floating R, class Curve>
+Stream stream_through(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t most,
+                      std::size_t window_size, Random* interleaving) {
+    AnyTrajectory<S, R> any(curve, limits, window_size);
     Trajectory<S>& trajectory = any.trajectory();
     Feeder<S, Curve> feeder(curve, program);
     Stream stream;
@@ -214,7 +214,7 @@ Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& li
 }
 
 /// The feed segments of a program. `interleaving`: pushes and pulls in random order.
-template <Scalar S>
+template <Scalar S, Floating R = double>
 Stream stream_of(const Program& program, const MachineSettings& machine, std::size_t window_size = 1024,
                  Random* interleaving = nullptr) {
     const auto limits = MotionLimits<S>::make(machine).value();
@@ -223,20 +223,20 @@ Stream stream_of(const Program& program, const MachineSettings& machine, std::si
     const std::size_t most = most_segments(least_seconds(program, machine), limits);
     if (program.polyline) {
         Polyline<S> curve(options);
-        return stream_of<S>(curve, program, limits, most, window_size, interleaving);
+        return stream_through<S, R>(curve, program, limits, most, window_size, interleaving);
     }
     G2Spline<S> curve(options);
-    return stream_of<S>(curve, program, limits, most, window_size, interleaving);
+    return stream_through<S, R>(curve, program, limits, most, window_size, interleaving);
 }
 
 /// The feed segments of Bezier segments as they stand.
-template <Scalar S>
+template <Scalar S, Floating R = double>
 Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& machine, std::size_t window_size = 1024,
                  std::uint64_t seed = 0, int patience = 0) {
     const auto limits = MotionLimits<S>::make(machine).value();
     const std::size_t most = most_segments(least_seconds(segments, machine), limits);
     ListSource<S> source(std::move(segments), seed, patience);
-    AnyTrajectory<S> any(source, limits, window_size);
+    AnyTrajectory<S, R> any(source, limits, window_size);
     Trajectory<S>& trajectory = any.trajectory();
     Stream stream;
     FeedSegment segment;
@@ -251,10 +251,10 @@ Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& m
     return stream;
 }
 
-template <Scalar S>
+template <Scalar S, Floating R = double>
 Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::size_t window_size = 1024,
                  const PerAxis<double>& start = {}, std::uint64_t seed = 0, int patience = 0) {
-    return stream_of<S>(segments_of<S>(path, start), machine, window_size, seed, patience);
+    return stream_of<S, R>(segments_of<S>(path, start), machine, window_size, seed, patience);
 }
 
 } // namespace splinefeed_test

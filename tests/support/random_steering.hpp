@@ -16,9 +16,8 @@ inline MachineSettings random_quick_machine(Random& random, int axes) {
     return machine;
 }
 
-/// Jerk limits over four decades of the time that the acceleration takes to rise, for either tier.
+/// Jerk limits over four decades of the time that the acceleration takes to rise.
 inline void limit_jerk(Random& random, MachineSettings& machine) {
-    machine.jerk_tier = random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal;
     for (AxisSettings& axis : machine.axis) {
         if (random.chance(0.9)) {
             axis.max_jerk_mm_s3 = std::min(axis.max_acceleration_mm_s2 / random.decades(1e-4, 1.0), 1e9);

@@ -77,12 +77,12 @@ void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, St
     run.position = trajectory.position();
 }
 
-template <Scalar S>
+template <Scalar S, Floating R = double>
 SteeredRun run_steered(const BezierPath& path, const MachineSettings& machine, std::size_t window_size,
                        const std::vector<Event>& events) {
     const auto limits = MotionLimits<S>::make(machine).value();
     ListSource<S> source(segments_of<S>(path, {}), 0, 0);
-    AnyTrajectory<S> any(source, limits, window_size);
+    AnyTrajectory<S, R> any(source, limits, window_size);
     SteeredRun run;
     run_steered<S>(any.trajectory(), events, run);
     return run;

@@ -34,6 +34,4 @@ done
 for curve in g2-bezier catmull-rom catmull-rom-modified bspline polyline bspline-interpolation ferguson; do
     same examples/star.csv -m examples/three_axis.toml --curve $curve
 done
-sed 's/^jerk_plan.*//; s/^\[path\]/&\njerk_plan = "bounded"/' examples/jerk_limited.toml >"$scratch/bounded.toml"
-grep --quiet 'jerk_plan = "bounded"' "$scratch/bounded.toml"
-same examples/path61.csv -m "$scratch/bounded.toml"
+same examples/path61.csv -m examples/jerk_limited.toml --jerk-scalar float

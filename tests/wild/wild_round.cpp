@@ -12,6 +12,7 @@
 namespace splinefeed_test {
 
 using splinefeed::host::RunArguments;
+using splinefeed::host::ScalarKind;
 
 namespace {
 
@@ -34,7 +35,6 @@ void make_machine(Random& random, int axes, WildRound& round) {
         text += fmt::format("chord_error_mm = {:.6g}\n", random.decades(1e-5, 0.1));
     }
     round.machine = round.jerk = text;
-    round.jerk += "jerk_plan = \"PLAN\"\n";
     const double velocity = random.decades(3.0, 1000.0);
     const double acceleration = random.decades(30.0, 3e4);
     const double rise = random.decades(1e-3, 0.3);
@@ -179,7 +179,7 @@ WildRound wild_round(std::uint64_t seed) {
     if (curve < 6 && random.chance(0.4)) {
         round.arguments.path.curve.corner_angle = random.chance(0.5) ? "180" : "20";
     }
-    round.arguments.motion.window_cells =
+    round.arguments.motion.planner.window_cells =
         static_cast<std::size_t>(windows[static_cast<unsigned>(random.integer(0, 4))]);
     round.orders = random.chance(0.4);
     return round;
@@ -220,18 +220,16 @@ RunArguments write_texts(const RunArguments& arguments, const std::string& machi
     return written;
 }
 
-RunArguments write_wild(const WildRound& round, WildPlan plan, double seconds, const std::string& folder) {
-    std::string machine = plan == WildPlan::acceleration ? round.machine : round.jerk;
-    if (const auto at = machine.find("PLAN"); at != std::string::npos) {
-        machine.replace(at, 4, plan == WildPlan::optimal ? "optimal" : "bounded");
-    }
+RunArguments write_wild(const WildRound& round, bool jerk_limited, double seconds, const std::string& folder) {
+    const std::string& machine = jerk_limited ? round.jerk : round.machine;
     return write_texts(round.arguments, machine, round.program, seconds > 0.0 ? round.events(seconds) : "", folder);
 }
 
 std::string printed(const RunArguments& arguments, std::string_view scalar) {
     std::string text =
-        fmt::format("splinefeed run wild.csv -m wild.toml --scalar {} --curve {} --window {}{}{}{}\n", scalar,
-                    *arguments.path.curve.method, arguments.motion.window_cells,
+        fmt::format("splinefeed run wild.csv -m wild.toml --scalar {}{} --curve {} --window {}{}{}{}\n", scalar,
+                    arguments.motion.planner.jerk_scalar == ScalarKind::float32 ? " --jerk-scalar float" : "",
+                    *arguments.path.curve.method, arguments.motion.planner.window_cells,
                     arguments.path.curve.closed ? " --closed" : "", arguments.path.curve.smooth ? " --smooth" : "",
                     arguments.motion.events.empty() ? "" : " --events wild.events.csv");
     if (arguments.path.curve.corner_angle) {

@@ -11,11 +11,9 @@
 
 namespace splinefeed_test {
 
-enum class WildPlan : std::uint8_t { acceleration, optimal, bounded };
-
 struct WildRound {
     std::string machine; ///< text of the machine file, without a jerk limit
-    std::string jerk;    ///< the same with jerk limits, but for the plan
+    std::string jerk;    ///< the same with jerk limits
     std::string program; ///< text of the waypoint file
     bool orders = false; ///< somebody steers
     std::uint64_t seed = 0;
@@ -30,7 +28,7 @@ struct WildRound {
 
 /// Writes the files wild.csv, wild.toml and wild.events.csv into a folder, and returns the arguments of running them.
 /// @param seconds  length of the run that is steered; 0: nobody steers
-[[nodiscard]] splinefeed::host::RunArguments write_wild(const WildRound& round, WildPlan plan, double seconds,
+[[nodiscard]] splinefeed::host::RunArguments write_wild(const WildRound& round, bool jerk_limited, double seconds,
                                                         const std::string& folder);
 
 /// The same for texts. @param arguments  curve and window; `events`  empty: nobody steers

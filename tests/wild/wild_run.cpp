@@ -59,7 +59,7 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
                         {.axes = {machine.axis_name.begin(), machine.axis_name.begin() + axes}});
         OptimumTime optimum(machine.settings, figures.direction_jump, arguments.path.scalar);
         PathWatch watch(input.name(), {.optimum = &optimum});
-        const auto path = plan_path(input, machine, watch, arguments.motion.window_cells);
+        const auto path = plan_path(input, machine, watch, arguments.motion.planner);
         SimulatedMachine simulated(machine, figures.segments_per_sample);
         const auto events =
             arguments.motion.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.motion.events);

@@ -27,9 +27,9 @@ constexpr Sentence<Error> sentences[] = {
     {Error::no_room, "the curve is full of waypoints: make segments, and push the waypoint again"},
     {Error::input_finished, "a curve takes no waypoints after finish()"},
     {Error::window_too_small,
-     "the window is too small: a feed plan needs at least 10 cells, a smooth plan 12 and a jerk plan 16 of their own"},
-    {Error::planner_unsuited, "these limits need another planner: AccelerationPlanner without max_jerk_mm_s3, with it "
-                              "BoundedPlanner (bounded) or OptimalPlanner (optimal)"},
+     "the window is too small: a feed plan needs at least 10 cells, a jerk plan 16 of its own"},
+    {Error::planner_unsuited, "these limits need another planner: AccelerationPlanner without max_jerk_mm_s3, "
+                              "JerkPlanner with it"},
     {Error::axes_differ, "the curve and the machine must have the same number of axes"},
     {Error::start_elsewhere, "a new program must begin where the machine stands"},
     {Error::still_moving, "a new program can start only when the machine is at rest"},

@@ -42,6 +42,7 @@ public:
         return from_raw(std::numeric_limits<std::int64_t>::min());
     }
 
+    static constexpr int fraction_bits = detail::fixed_fraction_bits;
     /// 2^-32, the difference of neighbouring numbers.
     [[nodiscard]] static constexpr Fixed resolution() noexcept { return from_raw(1); }
 

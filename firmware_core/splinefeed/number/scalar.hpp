@@ -236,14 +236,22 @@ template <Numeric N>
     }
 }
 
-/// The value as a double, for the host. Exact, except for Fixed from 2^21 on: rounded to nearest.
+/// The value as an R: rounded to nearest. Exact in double, except for Fixed from 2^21 on.
+template <Floating R, Numeric N>
+[[nodiscard]] constexpr R to_floating(N value) noexcept {
+    if constexpr (Floating<N>) {
+        return static_cast<R>(value);
+    } else if constexpr (std::same_as<R, double>) {
+        return value.to_double();
+    } else {
+        return detail::from_integer_scaled<R>(value.raw(), -N::fraction_bits);
+    }
+}
+
+/// The value as a double.
 template <Numeric N>
 [[nodiscard]] constexpr double to_double(N value) noexcept {
-    if constexpr (Floating<N>) {
-        return static_cast<double>(value);
-    } else {
-        return value.to_double();
-    }
+    return to_floating<double>(value);
 }
 
 /// The number of N nearest to a constant, computed by the compiler: `literal<S>(0.25)`.

@@ -26,6 +26,8 @@ template <Floating R>
 struct Passage {
     R length;
     R b0, middle, b1;
+    R slope0, slope1; // of b
+    R half_u;         // half of d2b/ds2
     R first[2], second[2], third[2];
     R second_spread, third_spread;
 };
@@ -45,9 +47,14 @@ Inner<R> inner_of(const Passage<R>& p) noexcept {
 }
 
 template <Floating R>
-R jerk_use(const Passage<R>& p, const Inner<R>& in, R slope0, R slope1, R jerk) noexcept {
+void take(LimitUse<R>& use, R value, bool at_end) noexcept {
+    use.most = larger(use.most, value);
+    use.ends = at_end ? larger(use.ends, value) : use.ends;
+}
+
+template <Floating R>
+LimitUse<R> jerk_use(const Passage<R>& p, const Inner<R>& in, R jerk) noexcept {
     constexpr R third = R(1.0 / 3.0);
-    const R half_u = R(0.5) * (slope1 - slope0) / p.length;
     const R r0 = R(1) / detail::hardware_square_root(p.b0);
     const R r1 = R(1) / detail::hardware_square_root(p.b1);
     // J (3/2 r - 1/2 r^3 b) less s3 b: products of linear functions with b
@@ -65,36 +72,39 @@ R jerk_use(const Passage<R>& p, const Inner<R>& in, R slope0, R slope1, R jerk) 
     R less[4];
     times_b(p.third[0], p.third[1], bend);
     times_b(by0, by1, less);
-    const R turn[4] = {R(1.5) * p.second[0] * slope0, in.second * slope0 + R(0.5) * p.second[0] * slope1,
-                       in.second * slope1 + R(0.5) * p.second[1] * slope0, R(1.5) * p.second[1] * slope1};
+    const R turn[4] = {R(1.5) * p.second[0] * p.slope0, in.second * p.slope0 + R(0.5) * p.second[0] * p.slope1,
+                       in.second * p.slope1 + R(0.5) * p.second[1] * p.slope0, R(1.5) * p.second[1] * p.slope1};
     const R tangent[4] = {p.first[0], in.first[0], in.first[1], p.first[1]};
     const R limit[4] = {a0, (R(2) * a0 + a1) * third, (a0 + R(2) * a1) * third, a1};
-    R most{};
+    LimitUse<R> use;
     for (unsigned j = 0; j < 4; ++j) {
         const R left = limit[j] - less[j];
-        most = left > R(0) ? larger(most, absolute(half_u * tangent[j] + turn[j] + bend[j]) / left) : R(beyond);
+        take(use, left > R(0) ? absolute(p.half_u * tangent[j] + turn[j] + bend[j]) / left : R(beyond), j % 3 == 0);
     }
-    return most;
+    return use;
 }
 
 template <Floating R>
-R acceleration_use(const Passage<R>& p, const Inner<R>& in, R slope0, R slope1, R acceleration) noexcept {
+LimitUse<R> acceleration_use(const Passage<R>& p, const Inner<R>& in, R acceleration) noexcept {
     constexpr R sixth = R(1.0 / 6.0);
     const R q0 = p.second[0];
     const R q1 = in.second;
     const R q2 = p.second[1];
     const R m = p.middle;
+    const R slope0 = p.slope0;
+    const R slope1 = p.slope1;
     const R bend[5] = {q0 * p.b0, R(0.5) * (q0 * m + q1 * p.b0), (q0 * p.b1 + R(4) * q1 * m + q2 * p.b0) * sixth,
                        R(0.5) * (q1 * p.b1 + q2 * m), q2 * p.b1};
     const R along[5] = {p.first[0] * slope0, R(0.25) * p.first[0] * slope1 + R(0.75) * in.first[0] * slope0,
                         R(0.5) * (in.first[0] * slope1 + in.first[1] * slope0),
                         R(0.75) * in.first[1] * slope1 + R(0.25) * p.first[1] * slope0, p.first[1] * slope1};
     const R b[5] = {p.b0, R(0.5) * (p.b0 + m), (p.b0 + R(4) * m + p.b1) * sixth, R(0.5) * (m + p.b1), p.b1};
-    R most{};
+    LimitUse<R> use;
+    const R per = R(1) / acceleration;
     for (unsigned j = 0; j < 5; ++j) {
-        most = larger(most, absolute(R(0.5) * along[j] + bend[j]) + p.second_spread * b[j]);
+        take(use, (absolute(R(0.5) * along[j] + bend[j]) + p.second_spread * b[j]) * per, j % 4 == 0);
     }
-    return most / acceleration;
+    return use;
 }
 
 template <Floating R>
@@ -108,24 +118,41 @@ Passage<R> half_of(const Passage<R>& p, const Inner<R>& in, unsigned which) noex
     const R at = R(0.25) * (p.b0 + R(2) * p.middle + p.b1);
     (which == 0 ? out.b1 : out.b0) = at;
     out.middle = R(0.5) * (p.middle + (which == 0 ? p.b0 : p.b1));
+    (which == 0 ? out.slope1 : out.slope0) = R(0.5) * (p.slope0 + p.slope1);
     return out;
 }
 
 template <Floating R>
-CellUse<R> use_of(const Passage<R>& p, R acceleration, R jerk, int halvings) noexcept {
-    if (!(p.b0 > R(0) && p.middle > R(0) && p.b1 > R(0))) {
-        return {R(beyond), R(beyond)};
+CellUse<R> use_of(const Passage<R>& whole, R acceleration, R jerk) noexcept {
+    Passage<R> rest[most_halvings + 1]; // parts that are still to be looked at, the shortest last
+    int halvings[most_halvings + 1];
+    std::size_t parts = 1;
+    rest[0] = whole;
+    halvings[0] = most_halvings;
+    CellUse<R> most;
+    while (parts > 0) {
+        const Passage<R> p = rest[--parts];
+        const int more = halvings[parts];
+        if (!(p.b0 > R(0) && p.middle > R(0) && p.b1 > R(0))) {
+            return {{R(beyond), R(1)}, {R(beyond), R(1)}};
+        }
+        const Inner<R> in = inner_of(p);
+        const CellUse<R> use{acceleration_use(p, in, acceleration), jerk_use(p, in, jerk)};
+        if (more == most_halvings) {
+            most.acceleration.ends = use.acceleration.ends;
+            most.jerk.ends = use.jerk.ends;
+        }
+        if ((use.acceleration.most > R(1) || use.jerk.most > R(1)) && more > 0) {
+            for (unsigned which = 0; which < 2; ++which) {
+                rest[parts] = half_of(p, in, which);
+                halvings[parts++] = more - 1;
+            }
+        } else {
+            most.acceleration.most = larger(most.acceleration.most, use.acceleration.most);
+            most.jerk.most = larger(most.jerk.most, use.jerk.most);
+        }
     }
-    const Inner<R> in = inner_of(p);
-    const R slope0 = R(2) * (p.middle - p.b0) / p.length;
-    const R slope1 = R(2) * (p.b1 - p.middle) / p.length;
-    CellUse<R> use{acceleration_use(p, in, slope0, slope1, acceleration), jerk_use(p, in, slope0, slope1, jerk)};
-    if ((use.acceleration > R(1) || use.jerk > R(1)) && halvings > 0) {
-        const CellUse<R> one = use_of(half_of(p, in, 0), acceleration, jerk, halvings - 1);
-        const CellUse<R> other = use_of(half_of(p, in, 1), acceleration, jerk, halvings - 1);
-        use = {larger(one.acceleration, other.acceleration), larger(one.jerk, other.jerk)};
-    }
-    return use;
+    return most;
 }
 
 } // namespace
@@ -133,24 +160,31 @@ CellUse<R> use_of(const Passage<R>& p, R acceleration, R jerk, int halvings) noe
 template <Floating R>
 CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R>& limits) noexcept {
     CellUse<R> most;
-    for (const unsigned k : indices(static_cast<int>(limits.axes))) {
+    for (const unsigned k : indices(limits.axes)) {
         const LegAxis<R>& from = node.axis[k];
         const LegAxis<R>& to = next.axis[k];
         const Passage<R> passage{node.length_mm,
                                  node.b,
                                  node.middle_sq,
                                  next.b,
+                                 node.slope,
+                                 next.slope,
+                                 R(0.5) * node.curvature,
                                  {from.first, to.first},
                                  {from.second, to.second},
                                  {R(from.third[1]), R(to.third[0])},
                                  larger(R(from.second_spread[1]), R(to.second_spread[0])),
                                  larger(R(from.third_spread[1]), R(to.third_spread[0]))};
-        const CellUse<R> use = use_of(passage, limits.acceleration_mm_s2[k], limits.jerk_mm_s3[k], most_halvings);
-        most = {larger(most.acceleration, use.acceleration), larger(most.jerk, use.jerk)};
+        const CellUse<R> use = use_of(passage, limits.acceleration_mm_s2[k], limits.jerk_mm_s3[k]);
+        for (const auto limit : {&CellUse<R>::acceleration, &CellUse<R>::jerk}) {
+            (most.*limit).most = larger((most.*limit).most, (use.*limit).most);
+            (most.*limit).ends = larger((most.*limit).ends, (use.*limit).ends);
+        }
     }
     return most;
 }
 
+template CellUse<float> cell_use(const LegNode<float>&, const LegNode<float>&, const AxisLimits<float>&) noexcept;
 template CellUse<double> cell_use(const LegNode<double>&, const LegNode<double>&, const AxisLimits<double>&) noexcept;
 
 } // namespace splinefeed

@@ -6,14 +6,21 @@
 
 namespace splinefeed {
 
-/// Upper bounds of the use anywhere in a cell; up to 1 it is within the limits.
+/// Use of a limit in a cell; up to 1 it is kept.
 template <Floating R>
-struct CellUse {
-    R acceleration{};
-    R jerk{};
+struct LimitUse {
+    R most{}; ///< an upper bound of the use anywhere
+    R ends{}; ///< the larger one of those at the ends
 };
 
-/// The use of the cell between two nodes that are both in motion, from b and middle_sq. Where it is above 1, the cell
+template <Floating R>
+struct CellUse {
+    LimitUse<R> acceleration;
+    LimitUse<R> jerk;
+};
+
+/// The use of the cell between two nodes that are both in motion, from their b and slope, and its middle_sq and
+/// curvature. Where it is above 1, the cell
 /// is halved up to four times for a closer bound. Derivation: cell_use.cpp. Cost: about 100 operations an axis.
 template <Floating R>
 [[nodiscard]] CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R>& limits) noexcept;

@@ -33,17 +33,17 @@ constexpr int most_steps = 40;
 
 } // namespace
 
-template <Scalar S>
-JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
-                          std::size_t planned) noexcept
-    : window_(&window), limits_(&limits), from_(from), state_(state), old_planned_(planned),
-      along_(
-          window.limits_of(0).move_limits(smaller(window.node(0).cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
+template <Scalar S, Floating R>
+JerkChange<S, R>::JerkChange(JerkWindow<S, R>& window, double from, const SpeedState& state,
+                             std::size_t planned) noexcept
+    : window_(&window), leg_(window.leg()), from_(from), state_(state), old_planned_(planned),
+      along_(window.limits_of(0).move_limits(
+          smaller(window.node(0).cap_sq, larger(static_cast<R>(state.b), window.node(0).wanted_sq)))) {
     if (state.slope > 0.0) {
         start_mm_ = 4.0 / 3.0 * state.b / state.slope;
     }
     for (std::size_t i = 0; i < window.size(); ++i) {
-        known_mm_ += window.node(i).length_mm * (i == 0 ? 1.0 - from : 1.0);
+        known_mm_ += to_double(window.node(i).length_mm) * (i == 0 ? 1.0 - from : 1.0);
         if (window.cell(i).stop_at_end) {
             break;
         }
@@ -51,8 +51,8 @@ JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, 
 }
 
 // The distance from one steady speed to another, with constant limits along the path.
-template <Scalar S>
-double JerkChange<S>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
+template <Scalar S, Floating R>
+double JerkChange<S, R>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
     const double a = along_.acceleration_mm_s2;
     const double j = along_.jerk_mm_s3;
     const double change = absolute(from_mm_s - to_mm_s);
@@ -61,16 +61,16 @@ double JerkChange<S>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
 }
 
 // Whether the old plan has a parabola in a cell.
-template <Scalar S>
-bool JerkChange<S>::knows(std::size_t cell) const noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::knows(std::size_t cell) const noexcept {
     return cell < old_planned_ && window_->node(cell).travel == Travel::curve &&
            (cell == 0 || window_->node(cell).b > 0.0) && window_->node(cell + 1).b > 0.0;
 }
 
 // The state on that parabola. The state at the start of the front cell is not that of its node, but the machine's is
 // known.
-template <Scalar S>
-SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const noexcept {
+template <Scalar S, Floating R>
+SpeedState JerkChange<S, R>::known_state(std::size_t cell, double fraction) const noexcept {
     const double length = window_->node(cell).length_mm;
     const SpeedState end = window_->state(cell + 1);
     const double start = cell == 0 ? from_ : 0.0;
@@ -81,8 +81,8 @@ SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const n
 }
 
 // Pieces are graded towards a standstill and away from it; after the finely split part up to the first long cells.
-template <Scalar S>
-double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
+template <Scalar S, Floating R>
+double JerkChange<S, R>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
     const double part =
         at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * cuts.part_behind;
     if (at_mm < cuts.fine_mm - least_mm(cuts)) {
@@ -92,23 +92,23 @@ double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
 }
 
 // Whether a cell that begins there is split or planned.
-template <Scalar S>
-bool JerkChange<S>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
     return at_mm < larger(cuts.end_mm, cuts.fine_mm) - least_mm(cuts) ||
            (cuts.graded() && cuts.part_behind * (at_mm - cuts.end_mm) < length_mm);
 }
 
 // Pieces shorter than this are not split off.
-template <Scalar S>
-double JerkChange<S>::least_mm(const Cuts& cuts) noexcept {
-    return larger(sliver * cuts.finest_mm, 0.1 * JerkWindow<S>::shortest_mm);
+template <Scalar S, Floating R>
+double JerkChange<S, R>::least_mm(const Cuts& cuts) noexcept {
+    return larger(sliver * cuts.finest_mm, 0.1 * JerkWindow<S, R>::shortest_mm);
 }
 
 // Calls visit(cell, from, to, at_mm) for every piece of the cells from the front on, as far as they are split or
 // planned, until it returns false. Cell 0 is number `first` of the window.
-template <Scalar S>
+template <Scalar S, Floating R>
 template <class Visit>
-void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
+void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
     const double least = least_mm(cuts);
     double at_mm = 0.0;
     for (std::size_t i = 0; i + first < window_->size(); ++i) {
@@ -140,8 +140,8 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
 }
 
 // Uses longer pieces if the window has too little room for all of them.
-template <Scalar S>
-bool JerkChange<S>::fit(Cuts& cuts) noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::fit(Cuts& cuts) noexcept {
     for (int step = 0; step < most_steps; ++step) {
         pieces_ = cells_ = 0;
         const std::size_t most = window_->longest_leg() + window_->size();
@@ -160,50 +160,48 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
 }
 
 // Plans the leg to cuts.end_mm.
-template <Scalar S>
-bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
-    LegPlan leg = window_->leg();
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::attempt(const Cuts& cuts) noexcept {
     const double least = least_mm(cuts);
     std::size_t changed = 0;
     bool known = true; // up to here the old plan has a motion
-    leg.begin(state_);
+    leg_.begin(state_);
     each_piece(cuts, 0, [&](std::size_t i, double from, double to, double at_mm) {
         if (at_mm >= cuts.end_mm - least) {
             return false;
         }
-        const JerkNode& whole = window_->node(i);
+        const JerkNode<R>& whole = window_->node(i);
         const bool before = at_mm < cuts.change_mm - least;
-        const double cap = before ? whole.cap_sq : whole.wanted_sq;
+        const R cap = before ? whole.cap_sq : whole.wanted_sq;
         const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        leg.add(jerk_cell_of(part, *limits_, cap),
-                whole.at_most_sq + to * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
+        leg_.add(window_->limits_of(part, cap),
+                 whole.at_most_sq + static_cast<R>(to) * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
         known = known && knows(i);
         if (known) {
             const SpeedState state = known_state(i, from);
-            leg.know(state.b + 0.5 * state.slope * (to - from) * whole.length_mm);
+            leg_.know(static_cast<R>(state.b + 0.5 * state.slope * (to - from) * to_double(whole.length_mm)));
         }
         changed += before ? 1U : 0U;
         return true;
     });
-    if (leg.cells() < LegPlan::fewest_cells || !leg.fastest()) {
+    if (leg_.cells() < LegPlan<R>::fewest_cells || !leg_.fastest()) {
         return false;
     }
-    seconds_ = leg.seconds();
-    planned_ = leg.cells();
+    seconds_ = leg_.seconds();
+    planned_ = leg_.cells();
     changed_ = changed > 0 ? changed : 1;
     return true;
 }
 
 // Splits the cells of the window, and gives them the motion of the last attempt.
-template <Scalar S>
-void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
-    const LegPlan tried = window_->leg();
+template <Scalar S, Floating R>
+void JerkChange<S, R>::adopt(const Cuts& cuts) noexcept {
     const double least = least_mm(cuts);
     const std::size_t more = pieces_ - cells_;
     window_->open(0, more); // no piece comes after the present place of its cell
     Cell<S> whole;
-    JerkNode start;
-    double at_end = 0.0;
+    JerkNode<R> start;
+    R at_end{};
     std::size_t n = 0;
     each_piece(cuts, more, [&](std::size_t i, double from, double to, double at_mm) {
         if (n == 0 || from == 0.0) {
@@ -212,30 +210,30 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
             at_end = window_->node(i + more + 1).at_most_sq;
         }
         window_->cell(n) = part_of(whole, CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        JerkNode& node = window_->node(n);
+        JerkNode<R>& node = window_->node(n);
         node = start;
-        node.length_mm = to_double(window_->cell(n).length_mm);
+        node.length_mm = to_floating<R>(window_->cell(n).length_mm);
         node.cap_sq = at_mm < cuts.change_mm - least ? start.cap_sq : start.wanted_sq;
-        node.at_most_sq = start.at_most_sq + from * (at_end - start.at_most_sq);
-        if (n < planned_) {
-            node.b = tried.node(n).b;
-            node.middle_sq = tried.node(n).middle_sq;
-        }
+        node.at_most_sq = start.at_most_sq + static_cast<R>(from) * (at_end - start.at_most_sq);
         node.travel = Travel::curve;
         ++n;
         return true;
     });
+    leg_.each_cell([&](std::size_t i, double b, double middle_sq) {
+        window_->node(i).b = b;
+        window_->node(i).middle_sq = middle_sq;
+    });
     window_->node(planned_).b = 0.0;
     for (std::size_t i = n; i < window_->size(); ++i) {
-        JerkNode& node = window_->node(i);
+        JerkNode<R>& node = window_->node(i);
         node.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cap_sq;
     }
 }
 
 // Finds the smallest distance for which a motion exists. 0: none.
-template <Scalar S>
+template <Scalar S, Floating R>
 template <class CutsAt>
-double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
+double JerkChange<S, R>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
     const auto possible_at = [&](double distance_mm) {
         Cuts cuts = cuts_at(distance_mm);
         return possible(cuts);
@@ -268,8 +266,8 @@ double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
 }
 
 // Plans the result of nearest() once more, and adopts it.
-template <Scalar S>
-bool JerkChange<S>::take(Cuts cuts) noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::take(Cuts cuts) noexcept {
     if (!(cuts.end_mm > 0.0) || !possible(cuts)) {
         return false;
     }
@@ -277,15 +275,15 @@ bool JerkChange<S>::take(Cuts cuts) noexcept {
     return true;
 }
 
-template <Scalar S>
-bool JerkChange<S>::to_rest() noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::to_rest() noexcept {
     const double v = square_root(state_.b);
     const double a = 0.5 * larger(state_.slope, 0.0);
     const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
-    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S>::shortest_mm);
+    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S, R>::shortest_mm);
     const auto cuts_at = [&](double end_mm, double behind) {
         const double longest = guess / pieces;
-        const double finest = larger(longest * next_to_rest, JerkWindow<S>::shortest_mm);
+        const double finest = larger(longest * next_to_rest, JerkWindow<S, R>::shortest_mm);
         return Cuts{end_mm, largest<double>(), end_mm + guess, longest, finest, behind};
     };
     const auto nearest_rest = [&](double behind) {
@@ -304,12 +302,12 @@ bool JerkChange<S>::to_rest() noexcept {
     return rest_mm > 0.0 && take(cuts_at(rest_mm, part_behind));
 }
 
-template <Scalar S>
-bool JerkChange<S>::to_wanted() noexcept {
+template <Scalar S, Floating R>
+bool JerkChange<S, R>::to_wanted() noexcept {
     const double v = square_root(state_.b);
     const double wanted = square_root(window_->node(0).wanted_sq);
     const double ramp = ramp_mm(v, wanted);
-    const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S>::shortest_mm);
+    const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S, R>::shortest_mm);
     const double stop = roomy * ramp_mm(larger(v, wanted), 0.0);
     const auto cuts_at = [&](double change_mm) {
         return Cuts{
@@ -322,8 +320,9 @@ bool JerkChange<S>::to_wanted() noexcept {
     return change_mm > 0.0 && take(cuts_at(change_mm));
 }
 
-template class JerkChange<double>;
-template class JerkChange<float>;
-template class JerkChange<Fixed>;
+template class JerkChange<double, double>;
+template class JerkChange<double, float>;
+template class JerkChange<Fixed, double>;
+template class JerkChange<Fixed, float>;
 
 } // namespace splinefeed

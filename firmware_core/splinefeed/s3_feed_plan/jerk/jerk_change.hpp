@@ -14,17 +14,16 @@ namespace splinefeed {
 
 /// Tries motions without changing the plan. Only when a motion is found, the window changes: its first cells are split
 /// at the places that the motion was planned for. Derivation: jerk_change.cpp.
-template <Scalar S>
+template <Scalar S, Floating R>
 class JerkChange {
 public:
     /// @param from  fraction of the front cell where the machine is, with motion `state`, b > 0
     /// @param planned  number of cells from the front on that have a plan
     /// @pre window.forget_travelled()
-    JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
-               std::size_t planned) noexcept;
+    JerkChange(JerkWindow<S, R>& window, double from, const SpeedState& state, std::size_t planned) noexcept;
 
     /// The nearest standstill; it is where cell planned() - 1 ends. false: there is none in the window. Cost: about
-    /// twenty JerkLeg::plan of the cells within the braking distance, of twenty cells at least.
+    /// twenty LegPlan::fastest of the cells within the braking distance, of twenty cells at least.
     bool to_rest() noexcept;
     /// Makes JerkNode::wanted_sq the cap of the cells, from the nearest possible place on. The motion ends at a
     /// standstill beyond that place; beyond changed() the plan may be made anew. false: not possible in the window.
@@ -64,8 +63,8 @@ private:
     [[nodiscard]] SpeedState known_state(std::size_t cell, double fraction) const noexcept;
     [[nodiscard]] double ramp_mm(double from_mm_s, double to_mm_s) const noexcept;
 
-    JerkWindow<S>* window_;
-    const MotionLimits<S>* limits_;
+    JerkWindow<S, R>* window_;
+    LegPlan<R> leg_; // the last attempt
     double from_;
     SpeedState state_;
     std::size_t old_planned_;

@@ -22,27 +22,26 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 } // namespace
 
-template <Scalar S>
-JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
+template <Scalar S, Floating R>
+JerkPlan<S, R>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S, R>& storage) noexcept
     : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage),
       plan_(window_) {}
 
-template <Scalar S>
-double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
-    return to_double(SpeedCaps<S>(*limits_).wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
+template <Scalar S, Floating R>
+R JerkPlan<S, R>::wanted_sq(const Cell<S>& cell, S most_sq) const noexcept {
+    return to_floating<R>(SpeedCaps<S>(*limits_).wanted_sq(cell, most_sq, steering_.ratio()));
 }
 
-template <Scalar S>
-Pull JerkPlan<S>::take(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+template <Scalar S, Floating R>
+Pull JerkPlan<S, R>::take(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     return source_.next(underrun, work, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
-        const double most_sq = to_double(cap_sq);
-        window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(exit_sq));
+        window_.append(cell, to_floating<R>(cap_sq), wanted_sq(cell, cap_sq), to_floating<R>(exit_sq));
         plan_.outdate();
     });
 }
 
-template <Scalar S>
-Pull JerkPlan<S>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+template <Scalar S, Floating R>
+Pull JerkPlan<S, R>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     window_.forget_travelled();
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
@@ -52,11 +51,11 @@ Pull JerkPlan<S>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
 }
 
 // The next profile segment of a straight move, as far as it lies in the front cell.
-template <Scalar S>
-void JerkPlan<S>::forward_step_on_line() noexcept {
-    const double length = window_.node(0).length_mm;
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::forward_step_on_line() noexcept {
+    const double length = to_double(window_.node(0).length_mm);
     const double per_length = 1.0 / length;
-    const JerkNode& node = window_.node(0);
+    const JerkNode<R>& node = window_.node(0);
     const bool last = node.travel == Travel::rest_to_rest || cell().stop_at_end; // the move ends in this cell
     const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
     const S from = profile_segment_.stretch.from;
@@ -77,10 +76,10 @@ void JerkPlan<S>::forward_step_on_line() noexcept {
     profile_segment_.stops = to_end && line_.done();
 }
 
-template <Scalar S>
-void JerkPlan<S>::forward_step() noexcept {
-    const JerkNode& from = window_.node(0);
-    const JerkNode& to = window_.node(1);
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::forward_step() noexcept {
+    const JerkNode<R>& from = window_.node(0);
+    const JerkNode<R>& to = window_.node(1);
     if (!line_.done()) {
         forward_step_on_line();
         return;
@@ -88,43 +87,41 @@ void JerkPlan<S>::forward_step() noexcept {
     profile_segment_ = {};
     on_line_mm_ = 0.0;
     if (from.travel != Travel::curve) {
-        const StraightLeg<S> leg(window_);
+        const StraightLeg<S, R> leg(window_);
         line_ = LineTravel(leg.from_rest());
         line_limits_ = leg.limits();
         forward_step_on_line();
         return;
     }
-    const auto scalar = [](double x) {
-        return from_double<S>(x);
-    };
-    profile_segment_.entry_sq = scalar(from.b);
-    profile_segment_.exit_sq = scalar(to.b);
+    profile_segment_.entry_sq = from_double<S>(from.b);
+    profile_segment_.exit_sq = from_double<S>(to.b);
     const bool starts = !(profile_segment_.entry_sq > S{});
     const bool stops = !(profile_segment_.exit_sq > S{});
     profile_segment_.stops = stops;
     if (starts || stops) { // constant jerk, t = 3 L / v
         profile_segment_.shape = SpeedShape::cubic;
-        profile_segment_.duration_ms = scalar(3e3 * from.length_mm / square_root(starts ? to.b : from.b));
+        profile_segment_.duration_ms =
+            from_double<S>(3e3 * to_double(from.length_mm) / square_root(starts ? to.b : from.b));
         profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
         profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
     } else {
         profile_segment_.shape = SpeedShape::parabola;
-        profile_segment_.middle_sq = scalar(from.middle_sq);
+        profile_segment_.middle_sq = from_double<S>(from.middle_sq);
     }
 }
 
-template <Scalar S>
-void JerkPlan<S>::want() noexcept {
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::want() noexcept {
     steering_.acknowledge();
     for (std::size_t i = 0; i < window_.size(); ++i) {
-        JerkNode& node = window_.node(i);
-        node.wanted_sq = wanted_sq(window_.cell(i), node.most_sq);
+        JerkNode<R>& node = window_.node(i);
+        node.wanted_sq = wanted_sq(window_.cell(i), from_double<S>(to_double(node.most_sq)));
     }
 }
 
-template <Scalar S>
-bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
-    StraightLeg<S> leg(window_, line_limits_);
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::change_line(double from, const SpeedState& state) noexcept {
+    StraightLeg<S, R> leg(window_, line_limits_);
     if (!(steering_.stops() ? leg.to_rest(from, state) : leg.to_end(from, state))) {
         return false;
     }
@@ -134,9 +131,9 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-template <Scalar S>
-bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
-    JerkChange<S> change(window_, *limits_, from, state, plan_.planned());
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::change_curve(double from, const SpeedState& state) noexcept {
+    JerkChange<S, R> change(window_, from, state, plan_.planned());
     if (!(steering_.stops() ? change.to_rest() : change.to_wanted())) {
         return false;
     }
@@ -147,9 +144,9 @@ bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
 
 // A change of the steering while the machine moves. If no other motion is found, the plan stays until there is one from
 // where a later profile segment starts; the plan of a stop is travelled to its end, a standstill.
-template <Scalar S>
-bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
-    if (state.b < JerkWindow<S>::slowest_sq) {
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::answer(double from, const SpeedState& state) noexcept {
+    if (state.b < JerkWindow<S, R>::slowest_sq) {
         return false; // later: it has just started, or is about to stop
     }
     want();
@@ -159,7 +156,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     const bool stops = steering_.stops();
     const bool on_line = !line_.done();
-    const double travelled_mm = from * window_.node(0).length_mm;
+    const double travelled_mm = from * to_double(window_.node(0).length_mm);
     const bool found = on_line ? change_line(from, state) : change_curve(from, state);
     unanswered_ = !found;
     if (!found) {
@@ -171,7 +168,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
-    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).length_mm);
+    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / to_double(window_.node(0).length_mm));
     halt_ = 0;
     if (stops) {
         plan_.commit(plan_.planned());
@@ -185,11 +182,12 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-template <Scalar S>
-bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::steer(const PlanState<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
-    if (line_.done() && (left < least_part || left * window_.node(0).length_mm < JerkWindow<S>::shortest_mm)) {
+    if (line_.done() &&
+        (left < least_part || left * to_double(window_.node(0).length_mm) < JerkWindow<S, R>::shortest_mm)) {
         return false; // it is tried again with the next profile segment
     }
     if (!answer(from, state_on(profile_segment_, window_.node(0).length_mm, from, to_double(place.time_share)))) {
@@ -200,14 +198,14 @@ bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
 }
 
 // Called before a profile segment is chosen.
-template <Scalar S>
-void JerkPlan<S>::follow_steering() noexcept {
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::follow_steering() noexcept {
     plan_.cancel();
     if (standing()) {
         unanswered_ = false;
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
-            JerkNode& node = window_.node(i);
+            JerkNode<R>& node = window_.node(i);
             node.cap_sq = node.wanted_sq;
         }
         plan_.take(0, 0);
@@ -222,8 +220,8 @@ void JerkPlan<S>::follow_steering() noexcept {
     }
 }
 
-template <Scalar S>
-Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+template <Scalar S, Floating R>
+Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -262,8 +260,8 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     return Pull::item;
 }
 
-template <Scalar S>
-void JerkPlan<S>::advance() noexcept {
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
     if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
@@ -277,18 +275,18 @@ void JerkPlan<S>::advance() noexcept {
     halt_ -= halt_ > 0 ? 1U : 0U;
 }
 
-template <Scalar S>
-void JerkPlan<S>::rest_at(S /*fraction*/) noexcept {
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::rest_at(S /*fraction*/) noexcept {
     SPLINEFEED_ASSERT(false); // it ends where it says
 }
 
-template <Scalar S>
-bool JerkPlan<S>::standing() const noexcept {
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::standing() const noexcept {
     return !chosen_ && line_.done() && !(window_.node(0).b > 0.0);
 }
 
-template <Scalar S>
-void JerkPlan<S>::clear() noexcept {
+template <Scalar S, Floating R>
+void JerkPlan<S, R>::clear() noexcept {
     SPLINEFEED_ASSERT(standing());
     source_.forget();
     window_.clear();
@@ -300,8 +298,9 @@ void JerkPlan<S>::clear() noexcept {
     steering_.start();
 }
 
-template class JerkPlan<double>;
-template class JerkPlan<float>;
-template class JerkPlan<Fixed>;
+template class JerkPlan<double, double>;
+template class JerkPlan<double, float>;
+template class JerkPlan<Fixed, double>;
+template class JerkPlan<Fixed, float>;
 
 } // namespace splinefeed

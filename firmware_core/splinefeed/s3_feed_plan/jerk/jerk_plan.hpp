@@ -17,16 +17,16 @@
 
 namespace splinefeed {
 
-/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan). In parts:
-/// a step of the search is as many steps of the budget as the leg has cells. A change of the steering while the machine
-/// moves plans the path ahead about twenty times, at once (JerkChange).
-template <Scalar S>
+/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan<R>). In
+/// parts: a step of the search is as many steps of the budget as the leg has cells. A change of the steering while the
+/// machine moves plans the path ahead about twenty times, at once (JerkChange).
+template <Scalar S, Floating R>
 class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
     /// @pre storage has at least smallest_window cells, and is enough(); this also holds for all other functions
-    JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
+    JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S, R>& storage) noexcept;
 
     using MotionPlan<S>::prepare;
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
@@ -47,7 +47,7 @@ private:
 
     Pull fill(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
-    [[nodiscard]] double wanted_sq(const Cell<S>& cell, double most_sq) const noexcept;
+    [[nodiscard]] R wanted_sq(const Cell<S>& cell, S most_sq) const noexcept;
     void want() noexcept;
     bool answer(double from, const SpeedState& state) noexcept;
     bool change_line(double from, const SpeedState& state) noexcept;
@@ -58,8 +58,8 @@ private:
 
     GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
-    JerkWindow<S> window_;
-    WindowPlan<S> plan_;
+    JerkWindow<S, R> window_;
+    WindowPlan<S, R> plan_;
     LineTravel line_{};        // used while a straight leg is travelled
     MoveLimits line_limits_{}; // limits of that leg
     std::size_t halt_ = 0;     // cells from the front on to the stop that a hold made; 0: none

@@ -22,34 +22,39 @@ enum class Travel : std::uint8_t {
     rest_to_rest ///< from standstill to standstill, as a move of its own
 };
 
-/// A node of the window, and the plan of the cell after it.
+/// A node of the window, and the plan of the cell after it. The plan is continuous to the last digit of double.
+template <Floating R>
 struct JerkNode {
-    double length_mm = 0.0;  ///< of the cell
-    double cap_sq = 0.0;     ///< largest v^2 anywhere in it
-    double most_sq = 0.0;    ///< at most its cap_sq, whatever the programmed feed
-    double wanted_sq = 0.0;  ///< its cap_sq with the present steering
-    double at_most_sq = 0.0; ///< upper bound of b at the node: that of the acceleration-limited plan
-    double b = 0.0;          ///< the plan: v^2 at the node
-    double middle_sq = 0.0;  ///< and the middle Bezier point of v^2 in the cell
+    R length_mm{};          ///< of the cell
+    R cap_sq{};             ///< largest v^2 anywhere in it
+    R most_sq{};            ///< at most its cap_sq, whatever the programmed feed
+    R wanted_sq{};          ///< its cap_sq with the present steering
+    R at_most_sq{};         ///< upper bound of b at the node: that of the acceleration-limited plan
+    double b = 0.0;         ///< the plan: v^2 at the node
+    double middle_sq = 0.0; ///< and the middle Bezier point of v^2 in the cell
     Travel travel = Travel::curve;
 };
 
 /// Memory of a JerkPlan, owned by the caller: as many nodes and as much scratch as cells, and one more of each.
-template <Scalar S>
+template <Scalar S, Floating R>
 struct JerkStorage {
     std::span<Cell<S>> cells;
-    std::span<JerkNode> nodes;
-    std::span<LegNode<double>> scratch;
+    std::span<JerkNode<R>> nodes;
+    std::span<LegNode<R>> scratch;
 
     [[nodiscard]] bool enough() const noexcept { return nodes.size() > cells.size() && scratch.size() > cells.size(); }
 };
 
+/// The limits of the axes in jerk-limited motion.
+template <Floating R, Scalar S>
+[[nodiscard]] AxisLimits<R> axis_limits_of(const MotionLimits<S>& limits) noexcept;
+
 /// The limits of a cell: the derivatives of its shape at both ends.
-template <Scalar S>
-[[nodiscard]] JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double cap_sq) noexcept;
+template <Floating R, Scalar S>
+[[nodiscard]] JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap_sq) noexcept;
 
 /// A ring of cells; node i is where cell i starts, and node size() is the end of the known path.
-template <Scalar S>
+template <Scalar S, Floating R>
 class JerkWindow {
 public:
     static constexpr std::size_t most_spare = 40; ///< largest number of cells that are kept free; at most a quarter of
@@ -59,7 +64,7 @@ public:
     static constexpr double slowest_sq = 4e-7;    ///< v^2 below which a motion is not changed: half of SpeedCaps'
 
     /// Overwrites the storage. @pre storage.enough(); this also holds for all other functions
-    JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
+    JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S, R>& storage) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// Cells that may still be appended, or created by splitting; some are kept free for splitting.
@@ -72,15 +77,17 @@ public:
     [[nodiscard]] const Cell<S>& cell(std::size_t i) const noexcept {
         return storage_.cells[ring_index(head_ + i, storage_.cells.size())];
     }
-    [[nodiscard]] JerkNode& node(std::size_t i) noexcept { return storage_.nodes[travelled_ + i]; }
-    [[nodiscard]] const JerkNode& node(std::size_t i) const noexcept { return storage_.nodes[travelled_ + i]; }
+    [[nodiscard]] JerkNode<R>& node(std::size_t i) noexcept { return storage_.nodes[travelled_ + i]; }
+    [[nodiscard]] const JerkNode<R>& node(std::size_t i) const noexcept { return storage_.nodes[travelled_ + i]; }
     /// The motion at a node.
     [[nodiscard]] SpeedState state(std::size_t i) const noexcept;
     /// The limits of a cell of the window.
-    [[nodiscard]] JerkCell limits_of(std::size_t i) const noexcept {
-        return jerk_cell_of(cell(i), *limits_, node(i).cap_sq);
+    [[nodiscard]] JerkCell<R> limits_of(std::size_t i) const noexcept { return limits_of(cell(i), node(i).cap_sq); }
+    /// Those of a part of a cell.
+    [[nodiscard]] JerkCell<R> limits_of(const Cell<S>& cell, R cap_sq) const noexcept {
+        return jerk_cell_of<R>(cell, limits_, cap_sq);
     }
-    [[nodiscard]] LegPlan leg() const noexcept { return LegPlan(storage_.scratch); }
+    [[nodiscard]] LegPlan<R> leg() const noexcept { return LegPlan<R>(storage_.scratch); }
     /// Cells that a leg can have.
     [[nodiscard]] std::size_t longest_leg() const noexcept { return storage_.scratch.size() - 1; }
 
@@ -89,7 +96,7 @@ public:
     /// @param wanted_sq  largest v^2 that is wanted in it
     /// @param exit_at_most_sq  upper bound of v^2 at its end
     /// @pre room() > 0
-    void append(const Cell<S>& added, double most_sq, double wanted_sq, double exit_at_most_sq) noexcept;
+    void append(const Cell<S>& added, R most_sq, R wanted_sq, R exit_at_most_sq) noexcept;
     void pop() noexcept;
     /// Moves the nodes that are not yet travelled to the front of the storage. Cost: a visit to every node.
     void forget_travelled() noexcept;
@@ -104,8 +111,9 @@ public:
 private:
     [[nodiscard]] bool bend_jumps(std::size_t i) const noexcept;
 
-    const MotionLimits<S>* limits_;
-    JerkStorage<S> storage_;
+    AxisLimits<R> limits_;
+    R segments_per_s_;
+    JerkStorage<S, R> storage_;
     std::size_t spare_;
     std::size_t head_ = 0;      // first place of the ring of cells
     std::size_t size_ = 0;      // cells in it

@@ -9,6 +9,10 @@
 // This is the double envelope of Lasry and Lions (1986), there with a constant c. Both are found in one pass, by a
 // stack of corners, because slopes and places are sorted.
 //
+// W itself is never computed: it would be large beside f, and float would lose f. From one corner p to the next one, q,
+// its increase beyond the tangent is D = W_q - W_p - W'_p d, and that of its slope C = W'_q - W'_p: sums of positive
+// numbers, also where corners between them are left out (Way). Lines cross (g_q - g_p - D) / C behind q.
+//
 // The envelope E is a value at the middle of a cell; the Bezier point there is E - L^2 E'' / 8.
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
 
@@ -31,25 +35,50 @@ constexpr double free_again = 4.0;   // a motion from the start that is so much 
 constexpr double least_middle = 0.3; // of the envelope
 constexpr double of_cap = 0.9;
 
+/// From the middle of a cell to that of a later one.
+template <Floating R>
+struct Way {
+    R length{};
+    R turn{}; // C
+    R rise{}; // D
+};
+
+template <Floating R>
+Way<R> operator+(const Way<R>& one, const Way<R>& next) noexcept {
+    return {one.length + next.length, one.turn + next.turn, one.rise + one.turn * next.length + next.rise};
+}
+
 // The members of a node that hold its part of the envelopes meanwhile.
 template <Floating R>
 struct Envelope {
     std::span<LegNode<R>> node;
 
-    [[nodiscard]] R& place(std::size_t i) const noexcept { return node[i].step_sq; }
-    [[nodiscard]] R& bound(std::size_t i) const noexcept { return node[i].excess; } // g
-    [[nodiscard]] R& wave(std::size_t i) const noexcept { return node[i].gain[0]; } // W
-    [[nodiscard]] R& wave_slope(std::size_t i) const noexcept { return node[i].gain[1]; }
-    [[nodiscard]] R& below(std::size_t i) const noexcept { return node[i].gain[2]; } // f
-    [[nodiscard]] std::size_t& corner(std::size_t i) const noexcept { return node[i].corner; }
-    [[nodiscard]] R hull(std::size_t i) const noexcept { return below(i) + wave(i); }
-    [[nodiscard]] R line(std::size_t y) const noexcept { return bound(y) - wave(y) + wave_slope(y) * place(y); }
+    [[nodiscard]] R& bound(std::size_t i) const noexcept { return node[i].excess; }        // g
+    [[nodiscard]] R& below(std::size_t i) const noexcept { return node[i].per_cap_slack; } // f
+    [[nodiscard]] R& bend(std::size_t i) const noexcept { return node[i].cap_multiplier; } // c
+    /// The half cells from the middle of a cell to that of the next one, or back.
+    [[nodiscard]] Way<R> step(std::size_t from, std::size_t to) const noexcept {
+        const auto half = [&](std::size_t i) {
+            const R length = R(0.5) * node[i].length_mm;
+            return Way<R>{length, bend(i) * length, R(0.5) * bend(i) * length * length};
+        };
+        return half(from) + half(to);
+    }
+    // The stack
+    [[nodiscard]] std::size_t& corner(std::size_t k) const noexcept { return node[k].corner; }
+    [[nodiscard]] Way<R> way_to(std::size_t k) const noexcept { // from the corner before
+        return {node[k].gain[0], node[k].gain[1], node[k].gain[2]};
+    }
+    void push(std::size_t k, std::size_t cell, const Way<R>& way) const noexcept {
+        corner(k) = cell;
+        node[k].gain = {way.length, way.turn, way.rise};
+    }
 };
 
 template <Floating R>
 R curvature_bound(const LegNode<R>& node, const AxisLimits<R>& limits, R b) noexcept {
     R most{};
-    for (const unsigned k : indices(static_cast<int>(limits.axes))) {
+    for (const unsigned k : indices(limits.axes)) {
         most = larger(most, larger(absolute(node.axis[k].first), R(least_tangent)) / limits.jerk_mm_s3[k]);
     }
     return R(of_curvature) / (most * detail::hardware_square_root(b));
@@ -59,7 +88,7 @@ template <Floating R>
 R speed_bound(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R>& limits) noexcept {
     const R g = R(of_acceleration) * smaller(node.likely_sq, node.cap_sq);
     R third{};
-    for (const unsigned k : indices(static_cast<int>(limits.axes))) {
+    for (const unsigned k : indices(limits.axes)) {
         const R most = larger(absolute(R(node.axis[k].third[1])), absolute(R(next.axis[k].third[0])));
         third = larger(third, most / limits.jerk_mm_s3[k]);
     }
@@ -72,61 +101,71 @@ R speed_bound(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R
 template <Floating R>
 void measure(const Envelope<R>& e, std::size_t n, const AxisLimits<R>& limits, bool rests) noexcept {
     R jerk = limits.jerk_mm_s3[0];
-    R total{};
-    for (const unsigned k : indices(static_cast<int>(limits.axes))) {
+    for (const unsigned k : indices(limits.axes)) {
         jerk = smaller(jerk, limits.jerk_mm_s3[k]);
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        total += e.node[i].length_mm;
-    }
     const R rest = R(of_rest) * power_two_thirds(R(4.5) * jerk);
-    R s{};
-    R wave{};
-    R slope{};
+    const auto from_rest = [&](std::size_t i, R& place) {
+        const R way = power_two_thirds(place + R(0.5) * e.node[i].length_mm);
+        place += e.node[i].length_mm;
+        e.bound(i) = smaller(e.bound(i), rest * way * way);
+    };
+    R place{};
     for (std::size_t i = 0; i < n; ++i) {
-        const R half = R(0.5) * e.node[i].length_mm;
-        const R place = s + half;
-        const R end = rests ? smaller(place, total - place) : total - place;
-        const R way = power_two_thirds(end);
-        const R g = smaller(speed_bound(e.node[i], e.node[i + 1], limits), rest * way * way);
-        const R c = curvature_bound(e.node[i], limits, g);
-        const auto half_on = [&] {
-            wave += slope * half + R(0.5) * c * half * half;
-            slope += c * half;
-        };
-        half_on();
-        e.place(i) = place;
-        e.bound(i) = g;
-        e.wave(i) = wave;
-        e.wave_slope(i) = slope;
-        half_on();
-        s += R(2) * half;
+        e.bound(i) = speed_bound(e.node[i], e.node[i + 1], limits);
+        if (rests) {
+            from_rest(i, place);
+        }
+    }
+    place = R(0);
+    for (std::size_t i = n; i-- > 0;) {
+        from_rest(i, place);
+        e.bend(i) = curvature_bound(e.node[i], limits, e.bound(i));
     }
 }
 
 template <Floating R>
 void round_peaks(const Envelope<R>& e, std::size_t n) noexcept {
+    // Where the lines of two corners cross, behind the second one.
+    const auto crossing = [&](std::size_t from, std::size_t to, const Way<R>& way) {
+        return (e.bound(to) - e.bound(from) - way.rise) / way.turn;
+    };
     std::size_t corners = 0;
-    const auto crossing = [&](std::size_t p, std::size_t q) {
-        return (e.line(q) - e.line(p)) / (e.wave_slope(q) - e.wave_slope(p));
-    };
     for (std::size_t y = 0; y < n; ++y) {
-        while (corners > 1 &&
-               crossing(e.corner(corners - 2), e.corner(corners - 1)) >= crossing(e.corner(corners - 1), y)) {
-            --corners;
+        Way<R> way = y > 0 ? e.step(y - 1, y) : Way<R>{};
+        while (corners > 1) {
+            const std::size_t last = e.corner(corners - 1);
+            if (crossing(e.corner(corners - 2), last, e.way_to(corners - 1)) < way.length + crossing(last, y, way)) {
+                break;
+            }
+            way = e.way_to(--corners) + way;
         }
-        e.corner(corners++) = y;
+        e.push(corners++, y, way);
+        e.below(y) = e.bound(y);
     }
-    const auto at = [&](std::size_t k, R x) {
+    for (std::size_t k = 0; k < corners; ++k) { // the line of a corner is the lowest between its crossings
         const std::size_t y = e.corner(k);
-        return e.bound(y) - e.wave(y) - e.wave_slope(y) * (x - e.place(y));
-    };
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        while (k + 1 < corners && at(k + 1, e.place(i)) <= at(k, e.place(i))) {
-            ++k;
+        const auto lower = [&](std::size_t i, const Way<R>& way) {
+            e.below(i) = smaller(e.below(i), e.bound(y) + way.rise);
+        };
+        if (k + 1 < corners) {
+            const Way<R> next = e.way_to(k + 1);
+            const R end = next.length + crossing(y, e.corner(k + 1), next);
+            Way<R> way;
+            for (std::size_t i = y + 1; i < n && (way = way + e.step(i - 1, i)).length <= end; ++i) {
+                lower(i, way);
+            }
+        } else {
+            Way<R> way;
+            for (std::size_t i = y + 1; i < n; ++i) {
+                lower(i, way = way + e.step(i - 1, i));
+            }
         }
-        e.below(i) = e.wave(i) + at(k, e.place(i));
+        const R start = k > 0 ? -crossing(e.corner(k - 1), y, e.way_to(k)) : largest<R>();
+        Way<R> way;
+        for (std::size_t i = y; i-- > 0 && (way = way + e.step(i + 1, i)).length <= start;) {
+            lower(i, way);
+        }
     }
 }
 
@@ -151,27 +190,34 @@ void follow_start(const Envelope<R>& e, std::size_t n, const AxisLimits<R>& limi
 
 template <Floating R>
 void round_dips(const Envelope<R>& e, std::size_t n) noexcept {
-    std::size_t corners = 0;
-    const auto outside = [&](std::size_t p, std::size_t q, std::size_t y) {
-        return (e.hull(q) - e.hull(p)) * (e.place(y) - e.place(q)) >=
-               (e.hull(y) - e.hull(q)) * (e.place(q) - e.place(p));
+    const auto rise = [&](std::size_t from, std::size_t to, const Way<R>& way) { // beyond the tangent of W
+        return e.below(to) - e.below(from) + way.rise;
     };
+    std::size_t corners = 0;
     for (std::size_t y = 0; y < n; ++y) {
-        while (corners > 1 && outside(e.corner(corners - 2), e.corner(corners - 1), y)) {
+        Way<R> way = y > 0 ? e.step(y - 1, y) : Way<R>{};
+        while (corners > 1) {
+            const std::size_t last = e.corner(corners - 1);
+            const Way<R> before = e.way_to(corners - 1);
+            if (rise(e.corner(corners - 2), last, before) * way.length <
+                (rise(last, y, way) + before.turn * way.length) * before.length) {
+                break;
+            }
+            way = before + way;
             --corners;
         }
-        e.corner(corners++) = y;
+        e.push(corners++, y, way);
     }
-    for (std::size_t k = 0; k + 1 < corners; ++k) {
-        const std::size_t p = e.corner(k);
-        const std::size_t q = e.corner(k + 1);
-        const R per = R(1) / (e.place(q) - e.place(p));
-        const R from = e.hull(p);
-        const R to = e.hull(q);
-        for (std::size_t i = p; i < q || (i == q && k + 2 == corners); ++i) {
-            const R share = (e.place(i) - e.place(p)) * per;
-            const R value = R(of_envelope) * (from + share * (to - from) - e.wave(i));
+    for (std::size_t k = 1; k < corners; ++k) {
+        const std::size_t p = e.corner(k - 1);
+        const std::size_t q = e.corner(k);
+        const Way<R> whole = e.way_to(k);
+        const R slope = rise(p, q, whole) / whole.length;
+        Way<R> way;
+        for (std::size_t i = p; i < q || (i == q && k + 1 == corners); ++i) {
+            const R value = R(of_envelope) * (e.below(p) + slope * way.length - way.rise);
             e.node[i].middle_sq = larger(value, R(least_envelope) * e.bound(i));
+            way = way + (i + 1 < n ? e.step(i, i + 1) : Way<R>{});
         }
     }
 }
@@ -249,7 +295,9 @@ void lead_over(std::span<LegNode<R>> nodes, std::size_t known, R from) noexcept 
     }
 }
 
+template void guess_leg(std::span<LegNode<float>>, const AxisLimits<float>&, bool) noexcept;
 template void guess_leg(std::span<LegNode<double>>, const AxisLimits<double>&, bool) noexcept;
+template void lead_over(std::span<LegNode<float>>, std::size_t, float) noexcept;
 template void lead_over(std::span<LegNode<double>>, std::size_t, double) noexcept;
 
 } // namespace splinefeed

@@ -25,7 +25,7 @@ struct LegAxis {
 /// Limits of the axes, the same in all cells of a leg.
 template <Floating R>
 struct AxisLimits {
-    unsigned axes = 0;
+    int axes = 0;
     PerAxis<R> acceleration_mm_s2{};
     PerAxis<R> jerk_mm_s3{};
 };
@@ -41,7 +41,7 @@ struct LegNode {
     R middle_sq{}; ///< the unknown: the middle Bezier point of b in the cell
     R b{};
     R slope{};     ///< db/ds
-    R curvature{}; ///< d2b/ds2 in the cell
+    R curvature{}; ///< d2b/ds2 in the cell: not from differences of b, which lose it in short cells
     R of_before{}; ///< b = of_before * middle of the cell before + of_own * middle
     R of_own{};
     R slope_of_before{}; ///< and db/ds
@@ -52,7 +52,6 @@ struct LegNode {
     R cap_multiplier{};
     R per_cap_slack{};
     R excess{};              ///< of the first motion over the limits of this node, as a part of them
-    R step_sq{};             ///< change of middle_sq
     std::array<R, 3> gain{}; ///< change of the curvature: gain[0] + gain[1] db + gain[2] dslope
     std::size_t corner = 0;  ///< of an envelope (leg_guess.cpp)
     PerAxis<LegAxis<R>> axis{};

@@ -18,42 +18,53 @@ namespace splinefeed {
 
 namespace {
 
-using R = LegPlan::R;
 constexpr int steps_of_a_leg = 40;
 constexpr int steps_again = 6; // after a change of the shares
 constexpr int most_passes = 6;
-constexpr R rough = 3e-3; // accuracies
-constexpr R fine = 3e-4;
-constexpr R from_rest = 0.1;
-constexpr R in_motion = 0.02;
-constexpr R margin = 0.1;
-constexpr R margin_again = 0.001;
-constexpr R almost = 0.9995;   // of a limit: the first time less is asked for already here
-constexpr R per_excess = 1.5;  // by how much the share is reduced
-constexpr R at_least = 0.0005; // and this at least
-constexpr R most_use = 1.25;   // a larger one comes from the bounds and falls faster
-constexpr R leads[] = {0.3, 0.6, 0.85};
+// Accuracies. In float, for small processors, a plan takes 0.2 % longer, and a third less of work.
+template <Floating R>
+constexpr double rough = std::same_as<R, double> ? 3e-3 : 4e-3;
+template <Floating R>
+constexpr double fine = std::same_as<R, double> ? 3e-4 : 2e-3;
+constexpr double from_rest = 0.1;
+constexpr double in_motion = 0.02;
+constexpr double margin = 0.1;
+constexpr double margin_again = 0.001;
+template <Floating R> // of a limit: the first time less is asked for already here
+constexpr double almost = std::same_as<R, double> ? 0.9995 : 0.998;
+constexpr double per_excess = 1.5; // by how much the share is reduced
+template <Floating R>              // and this at least
+constexpr double at_least = std::same_as<R, double> ? 0.0005 : 0.002;
+constexpr double most_fall = 0.97; // to the use at the ends, at once
+constexpr double most_use = 1.25;  // a larger one comes from the bounds and falls faster
+// Of a limit, as it is computed: in float, terms of opposite signs leave some 1e-5 of it.
+template <Floating R>
+constexpr double proved = std::same_as<R, double> ? 1.0 : 0.9999;
+constexpr double leads[] = {0.3, 0.6, 0.85};
 constexpr int most_scalings = 12;
 
 } // namespace
 
-void LegPlan::begin(const SpeedState& start) noexcept {
+template <Floating R>
+void LegPlan<R>::begin(const SpeedState& start) noexcept {
     cells_ = known_ = 0;
     rests_ = !(start.b > 0.0);
+    start_ = start;
     LegNode<R>& node = nodes_[0];
     node = {};
-    node.b = start.b;
-    node.slope = rests_ ? 0.0 : start.slope;
+    node.b = static_cast<R>(start.b);
+    node.slope = rests_ ? R(0) : static_cast<R>(start.slope);
 }
 
-void LegPlan::add(const JerkCell& cell, R at_most_sq) noexcept {
-    const R cap_sq = cell.cap_sq;
+template <Floating R>
+void LegPlan<R>::add(const JerkCell<R>& cell, R at_most_sq) noexcept {
+    const R cap_sq = R(proved<R>) * cell.cap_sq;
     LegNode<R>& node = nodes_[cells_];
     LegNode<R>& next = nodes_[cells_ + 1];
     const bool first = cells_ == 0;
     node.length_mm = cell.length_mm;
     node.cap_sq = first ? cap_sq : smaller(cap_sq, node.cap_sq);
-    const bool stops = !(at_most_sq > 0.0);
+    const bool stops = !(at_most_sq > R(0));
     node.likely_sq = first   ? (stops ? cap_sq : at_most_sq)
                      : stops ? node.likely_sq
                              : smaller(at_most_sq, node.likely_sq);
@@ -64,20 +75,18 @@ void LegPlan::add(const JerkCell& cell, R at_most_sq) noexcept {
         LegNode<R>& before = nodes_[cells_ - 1];
         before.cap_sq = smaller(before.cap_sq, cap_sq);
     }
-    limits_.axes = static_cast<unsigned>(cell.axes);
-    for (const unsigned k : indices(cell.axes)) {
-        limits_.jerk_mm_s3[k] = cell.jerk_mm_s3[k];
-        limits_.acceleration_mm_s2[k] = smaller(cell.end[0][k].most_forward, cell.end[0][k].most_backward);
-        const AxisEnd& from = cell.end[0][k];
-        const AxisEnd& to = cell.end[1][k];
+    limits_ = cell.limits;
+    for (const unsigned k : indices(limits_.axes)) {
+        const AxisEnd<R>& from = cell.end[0][k];
+        const AxisEnd<R>& to = cell.end[1][k];
         LegAxis<R>& here = node.axis[k];
-        const R jump = first ? 0.0 : absolute(from.second - here.second);
+        const R jump = first ? R(0) : absolute(from.second - here.second);
         const R last = first ? from.third : R(here.third[0]);
         here.first = from.first;
         here.second = from.second;
         here.third = Pair<R>{last, from.third};
-        here.second_spread = Pair<R>{first ? 0.0 : here.second_spread[0] + jump, from.second_spread};
-        here.third_spread = Pair<R>{first ? 0.0 : here.third_spread[0], from.third_spread};
+        here.second_spread = Pair<R>{first ? R(0) : here.second_spread[0] + jump, from.second_spread};
+        here.third_spread = Pair<R>{first ? R(0) : here.third_spread[0], from.third_spread};
         LegAxis<R>& there = next.axis[k];
         there.first = to.first;
         there.second = to.second;
@@ -86,28 +95,35 @@ void LegPlan::add(const JerkCell& cell, R at_most_sq) noexcept {
         there.third_spread = Pair<R>{to.third_spread, to.third_spread};
     }
     if (first) {
-        first_most_sq_ = rests_ ? cell.largest_from_rest(1) : 0.0;
-        node.middle_sq = rests_ ? 0.0 : node.b + 0.5 * node.slope * node.length_mm;
+        first_most_sq_ = rests_ ? cell.largest_from_rest(1) : R(0);
+        node.middle_sq = rests_ ? R(0) : node.b + R(0.5) * node.slope * node.length_mm;
     }
     last_most_sq_ = cell.largest_from_rest(0);
     ++cells_;
 }
 
-void LegPlan::know(R middle_sq) noexcept {
+template <Floating R>
+void LegPlan<R>::know(R middle_sq) noexcept {
     nodes_[cells_ - 1].known_sq = middle_sq;
     known_ = cells_;
 }
 
-LegPlan::Proof LegPlan::prove(R from, bool tighten) noexcept {
+template <Floating R>
+typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
     Proof proof;
     for (std::size_t i = rests_ ? 1 : 0; i + 1 < cells_; ++i) {
         LegNode<R>& node = nodes_[i];
         const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
-        proof.most = larger(proof.most, larger(use.acceleration, use.jerk));
-        const auto less = [&](R& share, R used) {
-            if (!(used <= from)) {
+        proof.most = larger(proof.most, larger(use.acceleration.most, use.jerk.most));
+        proof.kept = proof.kept && (i == 0 || !(R(proved<R>) * node.middle_sq > node.cap_sq));
+        // Where the use at the ends is less than their share, a smaller share changes nothing until it is less, too.
+        const auto less = [&](R& share, const LimitUse<R>& used) {
+            if (!(used.most <= from)) {
                 proof.kept = false;
-                share = tighten ? share / (1.0 + per_excess * (smaller(used, most_use) - 1.0) + at_least) : share;
+                if (tighten) {
+                    share = larger(smaller(share, used.ends), R(most_fall) * share) /
+                            (R(1.0 + at_least<R>) + R(per_excess) * (smaller(used.most, R(most_use)) - R(1)));
+                }
             }
         };
         less(node.acceleration_share, use.acceleration);
@@ -116,52 +132,58 @@ LegPlan::Proof LegPlan::prove(R from, bool tighten) noexcept {
     return proof;
 }
 
-void LegPlan::join() noexcept {
+template <Floating R>
+void LegPlan<R>::join() noexcept {
     solver_ = LegSolver<R>(leg(), limits_, rests_);
     solver_.join(first_most_sq_, last_most_sq_);
 }
 
-void LegPlan::guess() noexcept {
+template <Floating R>
+void LegPlan<R>::guess() noexcept {
     for (LegNode<R>& node : leg()) {
-        node.jerk_share = node.acceleration_share = 1.0;
+        node.jerk_share = node.acceleration_share = R(1);
     }
     guess_leg<R>(leg(), limits_, rests_);
     if (!rests_ && known_ > 1) {
-        lead_over<R>(leg(), known_, leads[lead_]);
+        lead_over<R>(leg(), known_, R(leads[lead_]));
     }
-    solver_.begin({steps_of_a_leg, rests_ ? from_rest : in_motion, rough, margin});
+    solver_.evaluate();
+    solver_.begin({steps_of_a_leg, R(rests_ ? from_rest : in_motion), R(rough<R>), R(margin)});
 }
 
-void LegPlan::search() noexcept {
+template <Floating R>
+void LegPlan<R>::search() noexcept {
     join();
     stage_ = Stage::guess;
     lead_ = 0;
 }
 
 // Another attempt, if there is one.
-Search LegPlan::fail() noexcept {
+template <Floating R>
+Search LegPlan<R>::fail() noexcept {
     stage_ = Stage::guess;
     return rests_ || known_ < 2 || ++lead_ == std::size(leads) ? Search::none : Search::running;
 }
 
-Search LegPlan::step() noexcept {
+template <Floating R>
+Search LegPlan<R>::step() noexcept {
     switch (stage_) {
     case Stage::guess:
         guess();
         stage_ = Stage::first;
         return Search::running;
     case Stage::prove_first:
-        prove(almost, true);
-        solver_.begin({steps_again, rough * 0.6, fine, margin_again, true});
+        prove(R(almost<R>), true);
+        solver_.begin({steps_again, R(rough<R> * 0.6), R(fine<R>), R(margin_again), true});
         stage_ = Stage::again;
         passes_ = 0;
         return Search::running;
     case Stage::prove:
-        if (prove(1.0, true).kept) {
+        if (prove(R(proved<R>), true).kept) {
             seconds_ = solver_.seconds();
             return Search::found;
         }
-        solver_.begin({steps_again, fine * 2.0, fine, margin_again, true});
+        solver_.begin({steps_again, R(fine<R> * 2.0), R(fine<R>), R(margin_again), true});
         stage_ = Stage::again;
         return ++passes_ == most_passes ? fail() : Search::running;
     case Stage::first:
@@ -170,9 +192,10 @@ Search LegPlan::step() noexcept {
     }
     const Search solved = solver_.step();
     if (solved == Search::found) {
+        solver_.settle(start_, true);
         stage_ = stage_ == Stage::first ? Stage::prove_first : Stage::prove;
     } else if (solved == Search::none && stage_ == Stage::again) {
-        solver_.begin({steps_of_a_leg, in_motion, fine, margin_again});
+        solver_.begin({steps_of_a_leg, R(in_motion), R(fine<R>), R(margin_again)});
         stage_ = Stage::anew;
     } else if (solved == Search::none) {
         return fail();
@@ -180,7 +203,8 @@ Search LegPlan::step() noexcept {
     return Search::running;
 }
 
-bool LegPlan::fastest() noexcept {
+template <Floating R>
+bool LegPlan<R>::fastest() noexcept {
     search();
     Search found = Search::running;
     while (found == Search::running) {
@@ -190,23 +214,28 @@ bool LegPlan::fastest() noexcept {
 }
 
 // Scaled by kappa, the parts of the limits that a motion uses scale with kappa (acceleration) and kappa^(3/2).
-bool LegPlan::slow() noexcept {
+template <Floating R>
+bool LegPlan<R>::slow() noexcept {
     join();
     guess_leg<R>(leg(), limits_, rests_);
-    R kappa = 0.9;
+    R kappa = R(0.9);
     for (int i = 0; i < most_scalings; ++i) {
         for (LegNode<R>& node : leg()) {
             node.middle_sq *= kappa;
         }
         solver_.evaluate();
-        const Proof proof = prove(1.0, false);
+        solver_.settle(start_, false);
+        const Proof proof = prove(R(proved<R>), false);
         if (proof.kept) {
             seconds_ = solver_.seconds();
             return true;
         }
-        kappa = 0.99 * power_two_thirds(1.0 / smaller(proof.most, 1e4));
+        kappa = R(0.99) * power_two_thirds(R(1) / smaller(proof.most, R(1e4)));
     }
     return false;
 }
+
+template class LegPlan<float>;
+template class LegPlan<double>;
 
 } // namespace splinefeed

@@ -8,10 +8,11 @@
 
 namespace splinefeed {
 
-/// Works in nodes of the caller. Build a leg by begin() and add(), then plan it: at once, or in steps.
+/// It computes in R. Works in nodes of the caller. Build a leg by begin() and add(), then plan it: at once, or in
+/// steps.
+template <Floating R>
 class LegPlan {
 public:
-    using R = double;
     static constexpr std::size_t fewest_cells = LegSolver<R>::fewest_cells;
 
     /// @param nodes  scratch, one more than the cells of a leg
@@ -21,7 +22,7 @@ public:
     void begin(const SpeedState& start) noexcept;
     /// Appends a cell. @pre fewer cells than nodes
     /// @param at_most_sq  an upper bound of b at its end, about: that of an acceleration-limited plan; 0: not known
-    void add(const JerkCell& cell, R at_most_sq) noexcept;
+    void add(const JerkCell<R>& cell, R at_most_sq) noexcept;
     /// The middle of the last cell in a plan that is possible. @pre all cells before it are known
     void know(R middle_sq) noexcept;
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
@@ -36,8 +37,19 @@ public:
     /// From standstill: a motion that is possible and not fast. false: none within the range of numbers.
     bool slow() noexcept;
 
-    /// The result. @pre fastest() or slow() found one
-    [[nodiscard]] const LegNode<R>& node(std::size_t i) const noexcept { return nodes_[i]; }
+    /// The result: calls visit(i, b, middle_sq) for every cell, with v^2 at its start, and at its middle as a Bezier
+    /// point, to the last digit of double. @pre fastest() or slow() found one
+    template <class Visit>
+    void each_cell(Visit&& visit) const noexcept {
+        if (rests_) {
+            visit(std::size_t{0}, 0.0, 0.0);
+        }
+        SpeedState state = solver_.first(start_);
+        for (std::size_t i = rests_ ? 1 : 0; i < cells_; ++i) {
+            visit(i, state.b, state.b + 0.5 * state.slope * static_cast<double>(nodes_[i].length_mm));
+            state = i + 1 < cells_ ? solver_.behind(i, state) : state;
+        }
+    }
     [[nodiscard]] R seconds() const noexcept { return seconds_; }
 
 private:
@@ -65,6 +77,7 @@ private:
     std::size_t cells_ = 0;
     std::size_t known_ = 0;
     bool rests_ = true;
+    SpeedState start_{};
     AxisLimits<R> limits_{};
     R first_most_sq_{};
     R last_most_sq_{};

@@ -36,7 +36,8 @@ namespace splinefeed {
 namespace {
 
 template <Floating R>
-constexpr R no_row = R(1e15);            // share of a limit beside the first and the last cell: there is no row
+constexpr R no_row = R(1e9);             // share of a limit beside the first and the last cell: there is no row
+constexpr double rise = 4.0 / 3.0;       // of b next to standstill, per length
 constexpr double least_left = 0.2;       // of middle_sq, after a step
 constexpr double least_curvature = 0.05; // of the time's own
 constexpr double least_shrink = 0.1;     // of the gap in a step
@@ -47,7 +48,18 @@ constexpr double good_step = 0.5; // the last step reaches so far, at least
 constexpr double no_excess = 1e-5;
 constexpr double small_excess = 1e-4;
 
+template <Floating R>
+inline R of_gains(const LegNode<R>& node, R b, R slope) noexcept {
+    return node.gain[0] + node.gain[1] * b + node.gain[2] * slope;
+}
+
 } // namespace
+
+/// A step: of b and db/ds at a node, and of d2b/ds2 in the cell behind it.
+template <Floating R>
+struct LegSolver<R>::Change {
+    R b{}, slope{}, curvature{};
+};
 
 /// Cost of the rest of the way: second and first derivatives by the state at a node, and by u of the cell before it.
 template <Floating R>
@@ -78,19 +90,18 @@ void LegSolver<R>::join(R first_most_sq, R last_most_sq) noexcept {
         node.slope_of_own = R(2) * sum;
         node.slope_of_before = -node.slope_of_own;
     }
-    constexpr R rise = R(4.0 / 3.0);
     if (rests()) {
         LegNode<R>& node = node_[1];
         const R share = own_share(1, node.length_mm, node_[0].length_mm);
         node.of_own = share;
-        node.slope_of_own = share * rise * node_[0].per_length;
+        node.slope_of_own = share * R(rise) * node_[0].per_length;
         node.weight_mm += R(2.5) * node_[0].length_mm; // t = 3 L / v
         node.cap_sq = smaller(node.cap_sq, first_most_sq / share);
     }
     LegNode<R>& last = node_[n - 1];
     const R share = own_share(n - 1, node_[n - 2].length_mm, last.length_mm);
     last.of_before = share;
-    last.slope_of_before = -share * rise * last.per_length;
+    last.slope_of_before = -share * R(rise) * last.per_length;
     last.weight_mm += R(2.5) * last.length_mm;
     node_[n - 2].cap_sq = smaller(node_[n - 2].cap_sq, last_most_sq / share);
     node_[n - 1].curvature = R(0);
@@ -99,15 +110,86 @@ void LegSolver<R>::join(R first_most_sq, R last_most_sq) noexcept {
 }
 
 template <Floating R>
-void LegSolver<R>::move(R step) noexcept {
+void LegSolver<R>::evaluate() noexcept {
     for (std::size_t i = 1; i < cells_; ++i) {
         LegNode<R>& before = node_[i - 1];
         LegNode<R>& node = node_[i];
-        node.middle_sq += step * node.step_sq;
         node.b = node.of_before * before.middle_sq + node.of_own * node.middle_sq;
         node.slope = node.slope_of_before * before.middle_sq + node.slope_of_own * node.middle_sq;
         before.curvature = (node.slope - before.slope) * before.per_length;
     }
+}
+
+template <Floating R>
+typename LegSolver<R>::Change LegSolver<R>::first_change() const noexcept {
+    const R b = rests() ? first_step_ : R(0);
+    const R slope = R(rise) * node_[0].per_length * b;
+    return {b, slope, of_gains(node_[first_], b, slope)};
+}
+
+template <Floating R>
+typename LegSolver<R>::Change LegSolver<R>::next_change(std::size_t i, const Change& change) const noexcept {
+    const R length = node_[i].length_mm;
+    const R slope = change.slope + change.curvature * length;
+    const R b = change.b + R(0.5) * (change.slope + slope) * length;
+    return {b, slope, i + 2 < cells_ ? of_gains(node_[i + 1], b, slope) : R(0)};
+}
+
+// Takes a part of the step.
+template <Floating R>
+void LegSolver<R>::move(R part) noexcept {
+    Change change = first_change();
+    for (std::size_t i = first_; i < cells_; ++i) {
+        LegNode<R>& node = node_[i];
+        node.b += part * change.b;
+        node.slope += part * change.slope;
+        node.curvature += part * change.curvature;
+        if (i + 1 < cells_) {
+            node.middle_sq += part * (change.b + R(0.5) * node.length_mm * change.slope);
+        }
+        change = next_change(i, change);
+    }
+}
+
+template <Floating R>
+SpeedState LegSolver<R>::first(const SpeedState& start) const noexcept {
+    const auto b = static_cast<double>(node_[1].b);
+    return rests() ? SpeedState{b, rise * b / static_cast<double>(node_[0].length_mm)} : start;
+}
+
+// The last parabola ends with b' = -4 b / (3 L), L of the cell behind it.
+template <Floating R>
+SpeedState LegSolver<R>::behind(std::size_t i, const SpeedState& state) const noexcept {
+    const auto length = static_cast<double>(node_[i].length_mm);
+    auto u = static_cast<double>(node_[i].curvature);
+    if (i + 2 == cells_) {
+        const double per = -rise / static_cast<double>(node_[i + 1].length_mm);
+        u = (per * (state.b + state.slope * length) - state.slope) / (length - 0.5 * per * length * length);
+    }
+    return {state.b + (state.slope + 0.5 * u * length) * length, state.slope + u * length};
+}
+
+template <Floating R>
+void LegSolver<R>::settle(const SpeedState& start, bool by_gains) noexcept {
+    SpeedState state = first(start);
+    for (std::size_t i = first_; i + 1 < cells_; ++i) {
+        LegNode<R>& node = node_[i];
+        if (by_gains) {
+            node.curvature += node.gain[1] * static_cast<R>(state.b - static_cast<double>(node.b)) +
+                              node.gain[2] * static_cast<R>(state.slope - static_cast<double>(node.slope));
+        }
+        const SpeedState next = behind(i, state);
+        const auto length = static_cast<double>(node.length_mm);
+        node.b = static_cast<R>(state.b);
+        node.slope = static_cast<R>(state.slope);
+        node.middle_sq = static_cast<R>(state.b + 0.5 * state.slope * length);
+        if (i + 2 == cells_) {
+            node.curvature = static_cast<R>((next.slope - state.slope) / length);
+        }
+        state = next;
+    }
+    node_[cells_ - 1].b = static_cast<R>(state.b);
+    node_[cells_ - 1].slope = static_cast<R>(state.slope);
 }
 
 template <Floating R>
@@ -140,7 +222,7 @@ R LegSolver<R>::measure_excess(R margin) noexcept {
         LegNode<R>& node = node_[i];
         const Row row = row_at(i);
         R most{};
-        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+        for (const unsigned k : indices(limits_.axes)) {
             most = larger(most, detail::use_of_node(node.axis[k], limits_.acceleration_mm_s2[k], limits_.jerk_mm_s3[k],
                                                     row, i > 0));
         }
@@ -155,7 +237,7 @@ template <Floating R>
 void LegSolver<R>::forget_multipliers() noexcept {
     for (LegNode<R>& node : node_) {
         node.cap_multiplier = R(0);
-        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+        for (const unsigned k : indices(limits_.axes)) {
             node.axis[k].acceleration_multiplier = R(0);
             node.axis[k].jerk_multiplier = Pair<R>{};
         }
@@ -184,7 +266,8 @@ inline void LegSolver<R>::add_cap(LegNode<R>& node, const Row& row, Value& value
 }
 
 // Takes the cost of the rest of the way from the end of a cell to its start: y = A x + B u, A = [1 L; 0 1], B = (L^2/2,
-// L), and u as is best for it.
+// L), and u = k + K x as is best for it. The cost at the start is that of y and u along x = (1, 0) and (0, 1): a sum of
+// squares in exact numbers. (As P - N N' / r it would be a difference, which float has no digits for in short cells.)
 template <Floating R>
 inline void LegSolver<R>::pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept {
     LegNode<R>& node = node_[i];
@@ -192,36 +275,36 @@ inline void LegSolver<R>::pass_cell(std::size_t i, const Terms& terms, Value& va
     const R b0 = R(0.5) * length * length;
     const R wb = value.bb * b0 + value.bs * length + value.ub;
     const R ws = value.bs * b0 + value.ss * length + value.us;
-    const R uu = value.uu + terms.uu[1] + value.ub * b0 + value.us * length + wb * b0 + ws * length;
-    const R nb = wb + terms.ub[1];
-    const R ns = wb * length + ws + terms.us[1];
-    const R nu = value.u + terms.u[1] + value.b * b0 + value.s * length;
-    const R bb = value.bb;
-    const R bs = value.bb * length + value.bs;
-    const R ss = (value.bb * length + R(2) * value.bs) * length + value.ss;
-    const R s = value.b * length + value.s;
+    const R of_u = value.u + terms.u[1];
+    const R nu = of_u + value.b * b0 + value.s * length;
     if (i + 2 == cells_) { // b' = -4 b / (3 L) at its end
-        const R per = R(-4.0 / 3.0) * node_[cells_ - 1].per_length;
+        const R per = R(-rise) * node_[cells_ - 1].per_length;
         const R inverse = R(1) / (length - per * b0);
-        const R kb = per * inverse;
-        const R ks = (per * length - R(1)) * inverse;
-        node.gain = {R(0), kb, ks};
-        value.bb = bb + R(2) * nb * kb + uu * kb * kb;
-        value.bs = bs + nb * ks + ns * kb + uu * kb * ks;
-        value.ss = ss + R(2) * ns * ks + uu * ks * ks;
-        value.b += kb * nu;
-        value.s = s + ks * nu;
+        node.gain = {R(0), per * inverse, (per * length - R(1)) * inverse};
     } else {
+        const R uu = value.uu + terms.uu[1] + value.ub * b0 + value.us * length + wb * b0 + ws * length;
         const R inverse = R(1) / larger(uu, R(1e-30));
-        const R kb = -nb * inverse;
-        const R ks = -ns * inverse;
-        node.gain = {-nu * inverse, kb, ks};
-        value.bb = bb + nb * kb;
-        value.bs = bs + nb * ks;
-        value.ss = ss + ns * ks;
-        value.b += kb * nu;
-        value.s = s + ks * nu;
+        node.gain = {-nu * inverse, -(wb + terms.ub[1]) * inverse, -(wb * length + ws + terms.us[1]) * inverse};
     }
+    const Change by_b{R(1) + b0 * node.gain[1], length * node.gain[1], node.gain[1]};
+    const Change by_s{length + b0 * node.gain[2], R(1) + length * node.gain[2], node.gain[2]};
+    const auto cost = [&](const Change& x, const Change& y) {
+        return x.b * (value.bb * y.b + value.bs * y.slope + value.ub * y.curvature) +
+               x.slope * (value.bs * y.b + value.ss * y.slope + value.us * y.curvature) +
+               x.curvature * (value.ub * y.b + value.us * y.slope + (value.uu + terms.uu[1]) * y.curvature);
+    };
+    const auto slope = [&](const Change& x) {
+        return x.b * value.b + x.slope * value.s + x.curvature * of_u;
+    };
+    const R bb = cost(by_b, by_b) + R(2) * terms.ub[1] * by_b.curvature;
+    const R bs = cost(by_b, by_s) + terms.ub[1] * by_s.curvature + terms.us[1] * by_b.curvature;
+    const R ss = cost(by_s, by_s) + R(2) * terms.us[1] * by_s.curvature;
+    const R b = slope(by_b);
+    value.s = slope(by_s);
+    value.bb = bb;
+    value.bs = bs;
+    value.ss = ss;
+    value.b = b;
 }
 
 template <Floating R>
@@ -232,12 +315,12 @@ void LegSolver<R>::backward() noexcept {
         LegNode<R>& node = node_[i];
         const Row row = row_at(i);
         Terms terms;
-        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+        for (const unsigned k : indices(limits_.axes)) {
             detail::add_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, terms);
             detail::add_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, terms);
         }
         gap_ += terms.gap + sum_of<R>(terms.jerk_gap);
-        nominal_gap_ += row.pull * static_cast<R>(3U * limits_.axes);
+        nominal_gap_ += row.pull * static_cast<R>(3 * limits_.axes);
         R bb = terms.bb + sum_of<R>(terms.jbb);
         R first = terms.b + sum_of<R>(terms.jb);
         const R slowness = node.weight_mm * row.root * row.per_b;
@@ -263,8 +346,8 @@ void LegSolver<R>::backward() noexcept {
         value.uu = terms.uu[0];
         value.u = terms.u[0];
     }
-    const R rise = R(4.0 / 3.0) * node_[0].per_length;
-    first_step_ = -(value.b + rise * value.s) / (value.bb + R(2) * rise * value.bs + rise * rise * value.ss);
+    const R slope = R(rise) * node_[0].per_length;
+    first_step_ = -(value.b + slope * value.s) / (value.bb + R(2) * slope * value.bs + slope * slope * value.ss);
 }
 
 // The step of every node and multiplier. Returns the inverse of the part of it that stays within all limits.
@@ -272,32 +355,26 @@ template <Floating R>
 R LegSolver<R>::forward() noexcept {
     R most{1};
     Pair<R> most_jerk{R(1), R(1)};
-    R db = rests() ? first_step_ : R(0);
-    R ds = rests() ? R(4.0 / 3.0) * node_[0].per_length * db : R(0);
-    R du_before{};
-    node_[0].step_sq = node_[cells_ - 1].step_sq = R(0);
+    Change change = first_change();
+    R before{};
     for (std::size_t i = first_; i < cells_; ++i) {
         LegNode<R>& node = node_[i];
         const Row row = row_at(i);
         const bool right = i + 1 < cells_;
-        const R du = right ? node.gain[0] + node.gain[1] * db + node.gain[2] * ds : R(0);
-        const R next_slope = ds + du * node.length_mm;
-        const R next_b = db + R(0.5) * (ds + next_slope) * node.length_mm;
-        const detail::LegStep<R> step{db, ds, Pair<R>{du_before, du}};
-        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+        const detail::LegStep<R> step{change.b, change.slope, Pair<R>{before, change.curvature}};
+        for (const unsigned k : indices(limits_.axes)) {
             detail::follow_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, step, most);
             detail::follow_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, step, most_jerk);
         }
         if (i > 0 && right) {
-            node.step_sq = db + R(0.5) * node.length_mm * ds;
-            most = larger(most, node.step_sq * node.per_cap_slack * R(detail::per_way));
-            most = larger(most, -node.step_sq * R(1.0 / (1.0 - least_left)) / node.middle_sq);
+            const R middle = change.b + R(0.5) * node.length_mm * change.slope;
+            most = larger(most, middle * node.per_cap_slack * R(detail::per_way));
+            most = larger(most, -middle * R(1.0 / (1.0 - least_left)) / node.middle_sq);
             node.cap_multiplier = larger(R(detail::least_multiplier) * node.cap_multiplier,
-                                         (row.pull + node.cap_multiplier * node.step_sq) * node.per_cap_slack);
+                                         (row.pull + node.cap_multiplier * middle) * node.per_cap_slack);
         }
-        db = next_b;
-        ds = next_slope;
-        du_before = du;
+        before = change.curvature;
+        change = next_change(i, change);
     }
     return larger(most, larger_of<R>(most_jerk));
 }
@@ -305,36 +382,31 @@ R LegSolver<R>::forward() noexcept {
 template <Floating R>
 void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
     effort_ = effort;
-    for (std::size_t i = 1; i + 1 < cells_; ++i) {
-        node_[i].middle_sq = smaller(node_[i].middle_sq, R(0.9999) * node_[i].cap_sq);
-    }
-    move(R(0));
     infeasibility_ = measure_excess(effort.margin);
     if (!effort.again) {
         forget_multipliers();
     }
     barrier_ = effort.start_accuracy;
-    step_ = R(0);
     steps_ = stuck_ = 0;
 }
 
 template <Floating R>
 Search LegSolver<R>::step() noexcept {
-    move(step_);
     backward();
     const R inverse = forward();
     stuck_ = inverse > R(1.0 / stuck_step) ? stuck_ + 1 : 0;
     if (!(gap_ > R(0)) || !(inverse < R(1e8)) || stuck_ > most_stuck) {
         return Search::none;
     }
-    step_ = R(1) / inverse;
-    infeasibility_ *= R(1) - step_;
+    const R part = R(1) / inverse;
+    move(part);
+    infeasibility_ *= R(1) - part;
     infeasibility_ = infeasibility_ < R(no_excess) ? R(0) : infeasibility_;
-    const bool close = barrier_ <= effort_.accuracy * R(1.001) && step_ > R(good_step) && !(infeasibility_ > R(0));
+    const bool close = barrier_ <= effort_.accuracy * R(1.001) && part > R(good_step) && !(infeasibility_ > R(0));
     if (close || ++steps_ == effort_.steps) {
         return finish();
     }
-    const R rest = R(1) - step_;
+    const R rest = R(1) - part;
     const R next = barrier_ * (gap_ / nominal_gap_) * larger(R(least_shrink), rest * rest);
     barrier_ = larger(effort_.accuracy, smaller(barrier_, next));
     return Search::running;
@@ -343,7 +415,6 @@ Search LegSolver<R>::step() noexcept {
 // Whether what is left of the first excess is small at every node.
 template <Floating R>
 Search LegSolver<R>::finish() noexcept {
-    move(step_);
     for (std::size_t i = first_; i < cells_; ++i) {
         if (infeasibility_ * node_[i].excess > R(small_excess)) {
             return Search::none;
@@ -371,6 +442,7 @@ R LegSolver<R>::seconds() const noexcept {
     return sum;
 }
 
+template class LegSolver<float>;
 template class LegSolver<double>;
 
 } // namespace splinefeed

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
+#include "splinefeed/s3_feed_plan/jerk/speed_state.hpp"
 
 #include <span>
 
@@ -47,13 +48,20 @@ public:
     /// Before the first begin(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
     /// begins at standstill) and of the last one.
     void join(R first_most_sq, R last_most_sq) noexcept;
-    /// From middle_sq, which may exceed limits, on.
+    /// b, slope and curvature from middle_sq.
+    void evaluate() noexcept;
+    /// From the motion of the nodes on, which may exceed limits.
     void begin(const LegEffort<R>& effort) noexcept;
     /// One step. `found`: the limits are kept at every node, which have their b, slope and curvature. Cost: about 500
     /// operations a node of three axes. @pre begin()
     Search step() noexcept;
-    /// b, slope and curvature from middle_sq.
-    void evaluate() noexcept { move(R{0}); }
+    /// The state at the first node that moves. @param start  of the leg, if that does not begin at standstill
+    [[nodiscard]] SpeedState first(const SpeedState& start) const noexcept;
+    /// The state at the end of cell i, from that at its start, by its curvature: continuous to the last digit of
+    /// double.
+    [[nodiscard]] SpeedState behind(std::size_t i, const SpeedState& state) const noexcept;
+    /// Makes the nodes those of that motion. What the steps have rounded in R, the gains of the last one correct.
+    void settle(const SpeedState& start, bool by_gains) noexcept;
     /// Duration of the motion [s], by Simpson's rule.
     [[nodiscard]] R seconds() const noexcept;
 
@@ -61,12 +69,15 @@ private:
     using Row = detail::LegRow<R>;
     using Terms = detail::LegTerms<R>;
     struct Value;
+    struct Change;
 
     Search finish() noexcept;
     [[nodiscard]] Row row_at(std::size_t i) const noexcept;
     R measure_excess(R margin) noexcept;
     void forget_multipliers() noexcept;
-    void move(R step) noexcept;
+    [[nodiscard]] Change first_change() const noexcept;
+    [[nodiscard]] Change next_change(std::size_t i, const Change& change) const noexcept;
+    void move(R part) noexcept;
     void add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept;
     void pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept;
     void backward() noexcept;
@@ -82,7 +93,6 @@ private:
     R nominal_gap_{};   // what it would be on the central path
     R first_step_{};    // of b at the first node, from standstill
     LegEffort<R> effort_{};
-    R step_{}; // part of step_sq that is taken next
     int steps_ = 0;
     int stuck_ = 0;
 };

@@ -13,6 +13,12 @@ namespace detail {
 template <Floating R>
 struct PairOf;
 template <>
+struct PairOf<float> {
+    using Bits [[gnu::vector_size(8)]] = int;
+    using Type [[gnu::vector_size(8)]] = float;
+    static constexpr Bits sign{INT32_MIN, INT32_MIN};
+};
+template <>
 struct PairOf<double> {
     using Bits [[gnu::vector_size(16)]] = long long;
     using Type [[gnu::vector_size(16)]] = double;

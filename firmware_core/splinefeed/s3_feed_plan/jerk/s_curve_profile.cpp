@@ -22,25 +22,27 @@ constexpr double length_rounding = 1e-9; // of a length, which would be travelle
 
 } // namespace
 
-// Newton's method on y^3 = x^2 from above, after powers of 8 are removed from x^2, so that y starts within a factor of
-// 4.
-double power_two_thirds(double x) noexcept {
-    double square = x * x;
-    double scale = 1.0;
-    while (square > 8.0) {
-        square *= 0.125;
-        scale *= 2.0;
+// Newton's method on y^3 = x^2, after powers of 8 are removed from x: y starts within a factor of 2.
+template <Floating R>
+R power_two_thirds(R x) noexcept {
+    R scale{1};
+    while (x >= R(8)) {
+        x *= R(0.125);
+        scale *= R(4);
     }
-    while (square < 1.0 && square > 0.0) {
-        square *= 8.0;
-        scale *= 0.5;
+    while (x < R(1) && x > R(0)) {
+        x *= R(8);
+        scale *= R(0.25);
     }
-    double y = 2.0;
+    R y{2};
     for (int i = 0; i < 8; ++i) {
-        y = (2.0 * y + square / (y * y)) * (1.0 / 3.0);
+        y = (R(2) * y + x * x / (y * y)) * R(1.0 / 3.0);
     }
     return y * scale;
 }
+
+template float power_two_thirds(float) noexcept;
+template double power_two_thirds(double) noexcept;
 
 MoveState MoveState::after(double t, double jerk_mm_s3) const noexcept {
     return {position_mm + t * (speed_mm_s + t * (0.5 * acceleration_mm_s2 + t * jerk_mm_s3 * (1.0 / 6.0))),

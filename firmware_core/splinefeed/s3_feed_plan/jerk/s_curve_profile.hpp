@@ -3,6 +3,8 @@
 // jerk.
 #pragma once
 
+#include "splinefeed/number/floating.hpp"
+
 #include <array>
 #include <cstddef>
 
@@ -62,6 +64,7 @@ private:
 };
 
 /// x^(2/3) for x > 0.
-[[nodiscard]] double power_two_thirds(double x) noexcept;
+template <Floating R>
+[[nodiscard]] R power_two_thirds(R x) noexcept;
 
 } // namespace splinefeed

@@ -5,11 +5,13 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double same_cap = 1e-9;
+template <Floating R>
+constexpr double same_cap = std::same_as<R, double> ? 1e-9 : 4e-7;
 constexpr double end_part = 1e-6; // of a cell: a move that ends this near ends with the cell
 
 /// Largest v^2 of the acceleration-limited plan in the cell after a node, with the largest override.
-double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
+template <Floating R>
+R fastest_sq(const JerkNode<R>& node, const JerkNode<R>& next) noexcept {
     return smaller(node.most_sq, larger(node.at_most_sq, next.at_most_sq));
 }
 
@@ -19,11 +21,11 @@ MoveState state_of(const SpeedState& state) noexcept {
 
 } // namespace
 
-template <Scalar S>
-bool StraightLeg<S>::is_straight(const JerkWindow<S>& window, std::size_t first, std::size_t end) noexcept {
-    const double cap = window.node(first).cap_sq;
+template <Scalar S, Floating R>
+bool StraightLeg<S, R>::is_straight(const JerkWindow<S, R>& window, std::size_t first, std::size_t end) noexcept {
+    const R cap = window.node(first).cap_sq;
     for (std::size_t i = first; i < end; ++i) {
-        if (absolute(window.node(i).cap_sq - cap) > same_cap * cap ||
+        if (absolute(window.node(i).cap_sq - cap) > R(same_cap<R>) * cap ||
             !window.limits_of(i).straight(fastest_sq(window.node(i), window.node(i + 1)))) {
             return false;
         }
@@ -31,10 +33,10 @@ bool StraightLeg<S>::is_straight(const JerkWindow<S>& window, std::size_t first,
     return true;
 }
 
-template <Scalar S>
-StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
+template <Scalar S, Floating R>
+StraightLeg<S, R>::StraightLeg(JerkWindow<S, R>& window) noexcept : window_(&window) {
     find_cells();
-    const JerkNode& front = window.node(0);
+    const JerkNode<R>& front = window.node(0);
     if (front.travel == Travel::rest_to_rest) {
         limits_ = window.limits_of(0).move_limits(front.most_sq);
         return;
@@ -47,58 +49,58 @@ StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
     }
 }
 
-template <Scalar S>
-StraightLeg<S>::StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noexcept
+template <Scalar S, Floating R>
+StraightLeg<S, R>::StraightLeg(JerkWindow<S, R>& window, const MoveLimits& limits) noexcept
     : window_(&window), limits_(limits) {
     find_cells();
 }
 
-template <Scalar S>
-void StraightLeg<S>::find_cells() noexcept {
+template <Scalar S, Floating R>
+void StraightLeg<S, R>::find_cells() noexcept {
     while (window_->node(0).travel != Travel::rest_to_rest && !window_->cell(cells_ - 1).stop_at_end) {
         ++cells_;
     }
 }
 
 // The limits, with the caps of the cells.
-template <Scalar S>
-MoveLimits StraightLeg<S>::capped() const noexcept {
+template <Scalar S, Floating R>
+MoveLimits StraightLeg<S, R>::capped() const noexcept {
     MoveLimits limits = limits_;
     for (std::size_t i = 0; i < cells_; ++i) {
-        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(window_->node(i).cap_sq));
+        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(to_double(window_->node(i).cap_sq)));
     }
     return limits;
 }
 
-template <Scalar S>
-double StraightLeg<S>::length_mm() const noexcept {
+template <Scalar S, Floating R>
+double StraightLeg<S, R>::length_mm() const noexcept {
     double length = 0.0;
     for (std::size_t i = 0; i < cells_; ++i) {
-        length += window_->node(i).length_mm;
+        length += to_double(window_->node(i).length_mm);
     }
     return length;
 }
 
-template <Scalar S>
-SCurveProfile StraightLeg<S>::from_rest() const noexcept {
+template <Scalar S, Floating R>
+SCurveProfile StraightLeg<S, R>::from_rest() const noexcept {
     return SCurveProfile(length_mm(), capped());
 }
 
-template <Scalar S>
-bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
+template <Scalar S, Floating R>
+bool StraightLeg<S, R>::to_rest(double from, const SpeedState& state) noexcept {
     move_ = SCurveProfile::to_rest(state_of(state), limits_);
-    double left = from * window_->node(0).length_mm + move_.length_mm();
+    double left = from * to_double(window_->node(0).length_mm) + move_.length_mm();
     std::size_t i = 0;
-    while (i < cells_ && left > window_->node(i).length_mm) {
-        left -= window_->node(i).length_mm;
+    while (i < cells_ && left > to_double(window_->node(i).length_mm)) {
+        left -= to_double(window_->node(i).length_mm);
         ++i;
     }
     if (i == cells_) {
         return false;
     }
     // A part of almost zero length is not split off: the move goes a little farther, or to the end of the cell.
-    constexpr double least = JerkWindow<S>::shortest_mm;
-    const double length = window_->node(i).length_mm;
+    constexpr double least = JerkWindow<S, R>::shortest_mm;
+    const double length = to_double(window_->node(i).length_mm);
     const bool whole = larger(left, least) > length - least;
     const double more = (whole ? length : larger(left, least)) - left;
     if (whole ? i + 1 == cells_ : window_->room() == 0) {
@@ -114,12 +116,12 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-template <Scalar S>
-bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
-    const double left = length_mm() - from * window_->node(0).length_mm;
+template <Scalar S, Floating R>
+bool StraightLeg<S, R>::to_end(double from, const SpeedState& state) noexcept {
+    const double left = length_mm() - from * to_double(window_->node(0).length_mm);
     MoveLimits wanted = limits_;
     for (std::size_t i = 0; i < cells_; ++i) {
-        wanted.speed_mm_s = smaller(wanted.speed_mm_s, square_root(window_->node(i).wanted_sq));
+        wanted.speed_mm_s = smaller(wanted.speed_mm_s, square_root(to_double(window_->node(i).wanted_sq)));
     }
     move_ = SCurveProfile::to_length(state_of(state), left, wanted);
     if (!(move_.length_mm() <= left * (1.0 + end_part))) {
@@ -131,8 +133,9 @@ bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-template class StraightLeg<double>;
-template class StraightLeg<float>;
-template class StraightLeg<Fixed>;
+template class StraightLeg<double, double>;
+template class StraightLeg<double, float>;
+template class StraightLeg<Fixed, double>;
+template class StraightLeg<Fixed, float>;
 
 } // namespace splinefeed

@@ -8,16 +8,16 @@
 namespace splinefeed {
 
 /// The leg goes from the front cell to the next stop. With Travel::rest_to_rest it is the front cell alone.
-template <Scalar S>
+template <Scalar S, Floating R>
 class StraightLeg {
 public:
     /// Whether one move can travel cells `first` to `end`: no bend up to the largest override, and one cap.
-    [[nodiscard]] static bool is_straight(const JerkWindow<S>& window, std::size_t first, std::size_t end) noexcept;
+    [[nodiscard]] static bool is_straight(const JerkWindow<S, R>& window, std::size_t first, std::size_t end) noexcept;
 
     /// From standstill. @pre the front node's travel is not Travel::curve
-    explicit StraightLeg(JerkWindow<S>& window) noexcept;
+    explicit StraightLeg(JerkWindow<S, R>& window) noexcept;
     /// In motion. @param limits  the limits with which the move began
-    StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noexcept;
+    StraightLeg(JerkWindow<S, R>& window, const MoveLimits& limits) noexcept;
 
     /// Within these limits no axis exceeds a limit, whatever the steering. A motion that keeps them has to be changed
     /// within the same limits: with a smaller jerk, a motion that accelerates to the largest speed would exceed that
@@ -39,7 +39,7 @@ private:
     [[nodiscard]] MoveLimits capped() const noexcept;
     void find_cells() noexcept;
 
-    JerkWindow<S>* window_;
+    JerkWindow<S, R>* window_;
     std::size_t cells_ = 1;
     MoveLimits limits_;
     SCurveProfile move_{};

@@ -12,10 +12,10 @@ namespace splinefeed {
 
 // From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
 // plan; after them there may be one. Returns its end.
-template <Scalar S>
-std::size_t WindowPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
+template <Scalar S, Floating R>
+std::size_t WindowPlan<S, R>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
-    if (end - first >= LegPlan::fewest_cells) {
+    if (end - first >= LegPlan<R>::fewest_cells) {
         planned_ = smaller(end, first + hops_);
         hops_ = smaller(2 * hops_, window_->size());
     }
@@ -27,15 +27,15 @@ std::size_t WindowPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noex
 }
 
 // Begins to plan cells `first` to `end` as one motion to standstill there.
-template <Scalar S>
-void WindowPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
+template <Scalar S, Floating R>
+void WindowPlan<S, R>::begin_leg(std::size_t first, std::size_t end) noexcept {
     leg_first_ = first;
     leg_end_ = end;
     leg_.begin(window_->state(first));
     for (std::size_t i = first; i < end; ++i) {
         leg_.add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
         if (i < planned_ && window_->node(first).b > 0.0) {
-            leg_.know(window_->node(i).middle_sq);
+            leg_.know(static_cast<R>(window_->node(i).middle_sq));
         }
     }
     leg_.search();
@@ -43,8 +43,8 @@ void WindowPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
 }
 
 // `none`: the plan is as before.
-template <Scalar S>
-Search WindowPlan<S>::search_leg(WorkBudget& work) noexcept {
+template <Scalar S, Floating R>
+Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
     Search search = Search::running;
     while (search == Search::running) {
         if (!work.take(static_cast<unsigned>(leg_.cells()))) {
@@ -59,19 +59,19 @@ Search WindowPlan<S>::search_leg(WorkBudget& work) noexcept {
             return Search::none;
         }
     }
-    for (std::size_t i = leg_first_; i < leg_end_; ++i) {
-        JerkNode& node = window_->node(i);
-        node.b = leg_.node(i - leg_first_).b;
-        node.middle_sq = leg_.node(i - leg_first_).middle_sq;
+    leg_.each_cell([&](std::size_t i, double b, double middle_sq) {
+        JerkNode<R>& node = window_->node(leg_first_ + i);
+        node.b = b;
+        node.middle_sq = middle_sq;
         node.travel = Travel::curve;
-    }
+    });
     window_->node(leg_end_).b = 0.0;
     return Search::found;
 }
 
 // How much of a leg that ends with the window is final: to about the middle, where it brakes least.
-template <Scalar S>
-std::size_t WindowPlan<S>::final_cells(std::size_t cells) const noexcept {
+template <Scalar S, Floating R>
+std::size_t WindowPlan<S, R>::final_cells(std::size_t cells) const noexcept {
     const auto part = [cells](unsigned per_cent) {
         return larger<std::size_t>(1, cells * per_cent / 100U);
     };
@@ -92,8 +92,8 @@ std::size_t WindowPlan<S>::final_cells(std::size_t cells) const noexcept {
 }
 
 // Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
-template <Scalar S>
-bool WindowPlan<S>::run(WorkBudget& work) noexcept {
+template <Scalar S, Floating R>
+bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
     const std::size_t half = (window_->size() + 1) / 2;
     complete_ = true;
     while (at_ < window_->size() && (at_ == 0 || at_ < half)) {
@@ -106,7 +106,7 @@ bool WindowPlan<S>::run(WorkBudget& work) noexcept {
             break;
         }
         const bool rests = !(window_->node(at_).b > 0.0);
-        if (!searching_ && stops && rests && StraightLeg<S>::is_straight(*window_, at_, end)) {
+        if (!searching_ && stops && rests && StraightLeg<S, R>::is_straight(*window_, at_, end)) {
             for (std::size_t i = at_; i < end; ++i) {
                 window_->node(i).travel = Travel::line;
             }
@@ -115,7 +115,7 @@ bool WindowPlan<S>::run(WorkBudget& work) noexcept {
             hops_ = 1;
             continue;
         }
-        if (!searching_ && end - at_ >= LegPlan::fewest_cells) {
+        if (!searching_ && end - at_ >= LegPlan<R>::fewest_cells) {
             begin_leg(at_, end);
         }
         const Search search = searching_ ? search_leg(work) : Search::none;
@@ -140,8 +140,9 @@ bool WindowPlan<S>::run(WorkBudget& work) noexcept {
     return true;
 }
 
-template class WindowPlan<double>;
-template class WindowPlan<float>;
-template class WindowPlan<Fixed>;
+template class WindowPlan<double, double>;
+template class WindowPlan<double, float>;
+template class WindowPlan<Fixed, double>;
+template class WindowPlan<Fixed, float>;
 
 } // namespace splinefeed

@@ -12,10 +12,10 @@
 
 namespace splinefeed {
 
-template <Scalar S>
+template <Scalar S, Floating R>
 class WindowPlan {
 public:
-    explicit WindowPlan(JerkWindow<S>& window) noexcept : window_(&window), leg_(window.leg()) {}
+    explicit WindowPlan(JerkWindow<S, R>& window) noexcept : window_(&window), leg_(window.leg()) {}
 
     /// Cells from the front on that are final.
     [[nodiscard]] std::size_t committed() const noexcept { return committed_; }
@@ -66,8 +66,8 @@ private:
     [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
 
-    JerkWindow<S>* window_;
-    LegPlan leg_;               // that is planned now
+    JerkWindow<S, R>* window_;
+    LegPlan<R> leg_;            // that is planned now
     std::size_t leg_first_ = 0; // its cells
     std::size_t leg_end_ = 0;
     std::size_t at_ = 0; // so many cells are planned anew

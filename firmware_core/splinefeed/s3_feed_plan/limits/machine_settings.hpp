@@ -33,19 +33,6 @@ struct AxisSettings {
     }
 };
 
-/// How much work the jerk-limited plan may do for a shorter time.
-enum class JerkTier : std::uint8_t {
-    bounded, ///< SmoothPlan: a fixed cost, in the scalar of the pipeline
-    optimal  ///< JerkPlan: in double
-};
-
-/// As machine files name it.
-struct JerkTierName {
-    const char* name;
-    JerkTier tier;
-};
-inline constexpr JerkTierName jerk_tiers[] = {{"optimal", JerkTier::optimal}, {"bounded", JerkTier::bounded}};
-
 /// A machine as its file states it. Zero means "no such limit" for the optional ones.
 struct MachineSettings {
     int axes = 3;
@@ -56,7 +43,6 @@ struct MachineSettings {
     int sample_period_us = 1000;
     /// 1 to 8, each a whole number of ticks of 1/8 us. 0: chosen so that the smoothing of the path stays below 0.35 um
     int segments_per_sample = 0;
-    JerkTier jerk_tier = JerkTier::optimal;
 };
 
 /// What all axes of a machine have together.

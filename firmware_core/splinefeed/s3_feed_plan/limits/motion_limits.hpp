@@ -29,13 +29,9 @@ struct MotionLimits {
     PerAxis<S> end_velocity_mm_s{}; ///< of an axis outside Refinement::open; 0: no such limit
     bool mixed = false;             ///< some axes are rotary and some are not
     PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
-    bool jerk_limited = false;      ///< some axis has a jerk limit that binds: the motion needs a JerkPlan or a
-                                    ///< SmoothPlan
-    JerkTier jerk_tier = JerkTier::optimal;
-    std::uint32_t smoothing_q8 = 0;      ///< JerkTier::bounded: time of the moving average, in 1/256 of a segment
-    std::uint32_t most_smoothing_q8 = 0; ///< the longest time that a straight move may ask for
-    S usable{};                          ///< the part of a limit that planning may use, before the noise of positions
-                                         ///< is subtracted
+    bool jerk_limited = false;      ///< some axis has a jerk limit that binds: the motion needs a JerkPlan
+    S usable{};                     ///< the part of a limit that planning may use, before the noise of positions is
+                                    ///< subtracted
     S feed_noise_mm_s{};
     S centripetal_mm_s2{};           ///< 0: none
     S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
@@ -84,22 +80,6 @@ inline constexpr double jump_share<float> = 1e-2;
 /// The same part for joints whose change of direction is tolerated (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;
 
-/// Largest number of segments that the moving average may contain.
-inline constexpr int most_smoothing = 1024;
-
-/// Time of the moving average, given the largest time A / J of an axis. A shorter average leaves acceleration unused, a
-/// longer one smooths bends away (docs/explanation/feed.md).
-constexpr double smoothing_s(double rise_s) noexcept {
-    const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
-    return most > 0.25 * rise_s ? most : 0.25 * rise_s;
-}
-
-/// A time in 1/256 of a segment, limited to the range from one segment to most_smoothing.
-constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
-    const double q8 = 256.0 * time_s / segment_s + 0.5;
-    return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
-}
-
 /// The largest jerk that the emitted motion can have, whatever is planned. In a segment it goes at most from one
 /// acceleration to the opposite one (feed.md, step 7 of the proof). A jerk limit above it does not bind.
 constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexcept {
@@ -124,13 +104,6 @@ constexpr double smallest_binding_jerk(const MachineSettings& settings, double s
         smallest = binds && !(smallest > 0.0 && smallest < jerk) ? jerk : smallest;
     }
     return smallest;
-}
-
-/// The time in which the axis reaches its acceleration. The axis with the smallest limit of all, `softest`, limits the
-/// others to about twice its own.
-constexpr double rise_s(const AxisSettings& axis, double softest) noexcept {
-    const double own = axis.smaller_acceleration_mm_s2();
-    return (own < 2.0 * softest ? own : 2.0 * softest) / axis.max_jerk_mm_s3;
 }
 
 /// Rounding of a position by e becomes the jerk 8 e / T^3 in the third difference.
@@ -296,7 +269,6 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     }
     const AxisTotals totals = axis_totals(settings);
     const double softest = totals.softest;
-    double rise_s = 0.0; // longest time in which an axis reaches its acceleration
     limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
     const double path =
         limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, totals.turning_sq) : settings.max_feed_mm_s;
@@ -355,14 +327,9 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         if (limits.jerk_limited && jerk_noise > 0.25 * jerk) {
             return LimitError::period_too_short;
         }
-        const double rise = binds ? detail::rise_s(axis, softest) : 0.0;
-        rise_s = rise > rise_s ? rise : rise_s;
         limits.jerk_mm_s3[k] = from_double<S>(jerk * (usable - detail::jerk_reserve) - jerk_noise);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
-    limits.jerk_tier = settings.jerk_tier;
-    limits.smoothing_q8 = (detail::smoothing_q8(detail::smoothing_s(rise_s), segment_s) + 128U) / 256U * 256U;
-    limits.most_smoothing_q8 = detail::smoothing_q8(rise_s, segment_s);
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
@@ -381,7 +348,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
     refinement.whole_lines = !(smoothest > 0.0);
     if (smoothest > 0.0) {
-        refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
+        refinement.finest_grade_log2 = 5;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
         refinement.inverse_error = scale2(refinement.inverse_error, -3);
         refinement.curvature_change = scale2(refinement.curvature_change, -1); // a remainder that is proportional to

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OptimalPlanner: the planner for limits with jerk and JerkTier::optimal. Its motion takes close to the least time.
+// JerkPlanner: the planner for limits with jerk. Its motion takes close to the least time.
 #pragma once
 
 #include "splinefeed/planner.hpp"
@@ -8,37 +8,38 @@
 
 namespace splinefeed {
 
-/// It plans in double, whatever the scalar of the pipeline: for hosts.
-template <Scalar S>
-class OptimalPlanner final : public Planner<S> {
+/// @tparam R  it plans in this type, whatever the scalar of the pipeline: float where the processor computes in single
+/// precision, double elsewhere
+template <Scalar S, Floating R = double>
+class JerkPlanner final : public Planner<S> {
 public:
     /// @param window   window of the acceleration-limited plan that it refines
     /// @param storage  at least JerkPlan::smallest_window cells
-    OptimalPlanner(std::span<PlannedCell<S>> window, const JerkStorage<S>& storage) noexcept
+    constexpr JerkPlanner(std::span<PlannedCell<S>> window, const JerkStorage<S, R>& storage) noexcept
         : Planner<S>(window), storage_(storage) {}
 
     /// @pre a trajectory was made with this planner
-    [[nodiscard]] const JerkPlan<S>& plan() const noexcept { return *plan_; }
+    [[nodiscard]] const JerkPlan<S, R>& plan() const noexcept { return *plan_; }
 
 private:
     using typename Planner<S>::Stages;
 
     [[nodiscard]] Status fits(const MotionLimits<S>& limits) const noexcept override {
-        if (!limits.jerk_limited || limits.jerk_tier != JerkTier::optimal) {
+        if (!limits.jerk_limited) {
             return Error::planner_unsuited;
         }
-        if (storage_.cells.size() < JerkPlan<S>::smallest_window) {
+        if (storage_.cells.size() < JerkPlan<S, R>::smallest_window) {
             return Error::window_too_small;
         }
         return storage_.enough() ? Error::none : Error::storage_too_small;
     }
     [[nodiscard]] Stages build(FeedPlan<S>& speeds, const MotionLimits<S>& limits) noexcept override {
-        JerkPlan<S>& plan = plan_.build(speeds, limits, storage_);
+        JerkPlan<S, R>& plan = plan_.build(speeds, limits, storage_);
         return {&plan, &sampler_.build(plan, limits)};
     }
 
-    JerkStorage<S> storage_;
-    Slot<JerkPlan<S>> plan_;
+    JerkStorage<S, R> storage_;
+    Slot<JerkPlan<S, R>> plan_;
     Slot<ProfileSampler<S>> sampler_;
 };
 
