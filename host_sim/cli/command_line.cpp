@@ -22,10 +22,6 @@ namespace {
 #define SPLINEFEED_VERSION "unknown"
 #endif
 
-constexpr const char* exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
-                                      "stands), a tolerance was not kept, or a "
-                                      "drive cannot be used; 2 bad input or usage (the message is one line).";
-
 std::string joined(std::initializer_list<std::string_view> names) {
     return listed({names.begin(), names.size()});
 }
@@ -220,68 +216,43 @@ constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curv
     throw UsageError(fmt::format("there is no command {}{}", in_quotes(word), suggestion(word, commands)));
 }
 
-void describe_commands(CLI::App& app, Job& job, Typed& typed) {
-    CLI::App* const run = app.add_subcommand("run", "Plan a path and execute it");
-    add_input(*run, job, typed);
-    add_machine_options(*run, job, typed, true);
-    add_curve_options(*run, job, typed);
-    add_gcode_options(*run, job);
-    run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
-    CLI::App* const plan = app.add_subcommand("plan", "Plan a path without executing it");
-    add_input(*plan, job, typed);
-    add_machine_options(*plan, job, typed, false);
-    add_curve_options(*plan, job, typed);
-    add_gcode_options(*plan, job);
-    plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
-    CLI::App* const check =
-        app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
-    add_input(*check, job, typed);
-    check->get_option("FILE")->description("a program in G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g)");
-    check->get_option("--format")->description("gcode: format of the input, whatever its name is");
-    check->add_option("-m,--machine", typed.machine,
-                      "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
-    check->add_option("--tolerance", job.run.path.curve.tolerance,
-                      "MM: of G64 without P, and of a program without G64, 0 to 100 (default: the machine file's)");
-    add_gcode_options(*check, job);
-    check->add_option("--scalar", typed.scalar,
-                      "fixed, float or double: number type of the computation (default double, which is faster); float "
-                      "not with a jerk limit");
-    check->add_option("--report", job.run.outputs.report,
-                      "R.html: a page that shows the motion, its limits and the program in a browser");
-    check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
-    check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
-                  "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
-    CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
-    add_input(*curve, job, typed);
-    add_curve_options(*curve, job, typed);
-    curve->add_option("-o,--curve-out", job.run.outputs.curve, "C.json (default: standard output)");
-    curve->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
-    curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
-    CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
-    surface->add_option("FILE", job.run.path.input, "a grid or sections (.json); - reads standard input")->required();
-    surface->add_option("--format", typed.format, "json: format of the input, whatever its name is");
-    add_surface_options(*surface, job.surface);
-    surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
-    surface->add_option("--scalar", typed.scalar,
-                        "fixed, float or double: number type of parameters, knots and control points (default double)");
-    surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
-                                "path.csv\n") +
-                    exit_statuses);
-    CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
-    add_drive_options(*drive, job.drive);
-    drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
-                  "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and "
-                  "exits with 0.");
-    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how reliably");
-    add_link_options(*link, job.link);
-    link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
-                 exit_statuses);
-    for (CLI::App* const command : {run, plan, check, curve, surface, drive, link}) {
-        for (CLI::Option* const option : command->get_options()) {
-            option->type_name(""); // the descriptions say what a value may be
-        }
-        command->allow_extras();
-        command->set_help_flag("-h,--help", "print this help");
+// What run, plan, check and curve have in common.
+void take_path(Job& job, const CLI::App& command, const Typed& typed) {
+    job.run.machine = typed.machine.value_or("");
+    if (typed.machine && job.run.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
+    job.command = command.get_name() == "run"     ? Command::run
+                  : command.get_name() == "plan"  ? Command::plan
+                  : command.get_name() == "check" ? Command::check
+                                                  : Command::curve;
+    job.run.motion.enforce = job.command == Command::run;
+    check_target(job.run.target);
+    if (job.run.target == "sim" && job.run.options.home) {
+        throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
+                         "--position says where it stands; name your machine with --target");
+    }
+    if (job.run.options.reset && job.run.target.rfind("modbus", 0) != 0) {
+        throw UsageError(
+            "--reset is for drives on Modbus; reset others by their own means, or name yours with --target");
+    }
+    if (job.run.target == "sim" && job.run.options.probe) {
+        throw UsageError("--probe is for machines with switches, and the simulated one has none; name yours with "
+                         "--target");
+    }
+    take_start(job, typed.start);
+    take_format(job, typed.format);
+    job.run.path.scalar =
+        scalar_kind("--scalar", typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"),
+                    {"fixed", "float", "double"});
+    job.run.motion.planner.jerk_scalar = scalar_kind("--jerk-scalar", typed.jerk_scalar, {"double", "float"});
+    take_window(job, typed.window);
+    take_outputs(job, command, typed.json ? "json" : typed.summary);
+    if (job.command == Command::curve && job.run.outputs.curve.empty()) {
+        job.run.outputs.curve = "-";
+    }
+    if (job.run.path.format->kind == InputKind::waypoints) {
+        static_cast<void>(choose_curve(job.run.path.curve));
     }
 }
 
@@ -332,42 +303,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         job.run.path.scalar = scalar_kind("--scalar", typed.scalar.value_or("double"), {"fixed", "float", "double"});
         return job;
     }
-    job.run.machine = typed.machine.value_or("");
-    if (typed.machine && job.run.machine.empty()) {
-        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
-    }
-    job.command = command.get_name() == "run"     ? Command::run
-                  : command.get_name() == "plan"  ? Command::plan
-                  : command.get_name() == "check" ? Command::check
-                                                  : Command::curve;
-    job.run.motion.enforce = job.command == Command::run;
-    check_target(job.run.target);
-    if (job.run.target == "sim" && job.run.options.home) {
-        throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
-                         "--position says where it stands; name your machine with --target");
-    }
-    if (job.run.options.reset && job.run.target.rfind("modbus", 0) != 0) {
-        throw UsageError(
-            "--reset is for drives on Modbus; reset others by their own means, or name yours with --target");
-    }
-    if (job.run.target == "sim" && job.run.options.probe) {
-        throw UsageError("--probe is for machines with switches, and the simulated one has none; name yours with "
-                         "--target");
-    }
-    take_start(job, typed.start);
-    take_format(job, typed.format);
-    job.run.path.scalar =
-        scalar_kind("--scalar", typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"),
-                    {"fixed", "float", "double"});
-    job.run.motion.planner.jerk_scalar = scalar_kind("--jerk-scalar", typed.jerk_scalar, {"double", "float"});
-    take_window(job, typed.window);
-    take_outputs(job, command, typed.json ? "json" : typed.summary);
-    if (job.command == Command::curve && job.run.outputs.curve.empty()) {
-        job.run.outputs.curve = "-";
-    }
-    if (job.run.path.format->kind == InputKind::waypoints) {
-        static_cast<void>(choose_curve(job.run.path.curve));
-    }
+    take_path(job, command, typed);
     return job;
 }
 

@@ -2,9 +2,14 @@
 #include "host_sim/cli/command_options.hpp"
 
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/drive/drive_faults.hpp"
 #include "host_sim/ports/target_table.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace splinefeed::host {
+
+namespace {
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input,
@@ -143,6 +148,153 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
         ->group(group)
         ->disable_flag_override();
+}
+
+void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
+    const std::string group = "Tool path";
+    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
+        app.add_option(name, value, text)->group(group);
+    };
+    option("--along", arguments.along,
+           "u or v: the parameter that runs along the lines (default: no path, the surface)");
+    option("--lines", arguments.lines, "number of lines, 2 to 100000");
+    option("--scallop", arguments.scallop, "instead: as many as leave ridges of this height [mm] at most");
+    option("--ball-radius", arguments.ball_radius,
+           "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
+    option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
+    option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
+    option("--lift", arguments.lift,
+           "one-way: height of the way back above the highest control point [mm] (default 5)");
+    option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
+    app.add_option("-o,--output", arguments.output,
+                   "WAYPOINTS.csv or CURVE.json (default: standard output, waypoints)");
+}
+
+void add_drive_options(CLI::App& app, DriveArguments& arguments) {
+    const auto option = [&app](const char* name, std::optional<std::string>& value, const std::string& text) {
+        return app.add_option(name, value, text);
+    };
+    app.add_option(
+        "--listen", arguments.listen,
+        "tcp://127.0.0.1:1502 (default; ?unit=1), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
+        "with &pace=off faster than a line of that rate");
+    app.add_option("--profile", arguments.profile,
+                   "the drive that it plays: a name or FILE.toml (default splinefeed-pvt)");
+    app.add_flag("--list-profiles", arguments.list_profiles, "print the profiles and do nothing else")
+        ->disable_flag_override();
+    option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
+    option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
+    option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
+    option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
+    option("--faults", arguments.faults,
+           list_drive_faults() +
+               "; P: probability per exchange, MS: for so long, S: when, N: a number; several with commas");
+    app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too")->disable_flag_override();
+    const std::string shafts = "Shafts (one value, or one for each axis)";
+    option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)")->group(shafts);
+    option("--max-acceleration", arguments.max_acceleration, "[counts/s^2]; beyond is a fault (default: none)")
+        ->group(shafts);
+    option("--stop-deceleration", arguments.stop_deceleration, "of a quick stop [counts/s^2] (default 2e6)")
+        ->group(shafts);
+    const std::string loop = "Position loop";
+    option("--bandwidth", arguments.bandwidth, "[Hz] (default 60)")->group(loop);
+    option("--damping", arguments.damping, "0 to 0.999 (default 0.7)")->group(loop);
+    option("--feed-forward", arguments.feed_forward, "of the acceleration; 1 follows exactly (default 1)")->group(loop);
+    const std::string outputs = "Outputs";
+    app.add_option("--record", arguments.record, "T.csv: where the shafts are, each millisecond [counts]")
+        ->group(outputs);
+    app.add_option("--record-segments", arguments.record_segments, "S.csv: each segment when it was executed")
+        ->group(outputs);
+}
+
+void add_link_options(CLI::App& app, LinkArguments& arguments) {
+    app.add_option("--target", arguments.target, target_help());
+    app.add_option("-m,--machine", arguments.machine,
+                   "machine file (.toml), for modbus and gpio:// (default: three axes)");
+    app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
+}
+
+void add_check(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const check =
+        app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
+    add_input(*check, job, typed);
+    check->get_option("FILE")->description("a program in G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g)");
+    check->get_option("--format")->description("gcode: format of the input, whatever its name is");
+    check->add_option("-m,--machine", typed.machine,
+                      "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    check->add_option("--tolerance", job.run.path.curve.tolerance,
+                      "MM: of G64 without P, and of a program without G64, 0 to 100 (default: the machine file's)");
+    add_gcode_options(*check, job);
+    check->add_option("--scalar", typed.scalar,
+                      "fixed, float or double: number type of the computation (default double, which is faster); float "
+                      "not with a jerk limit");
+    check->add_option("--report", job.run.outputs.report,
+                      "R.html: a page that shows the motion, its limits and the program in a browser");
+    check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
+    check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
+                  "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
+}
+
+void add_curve(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
+    add_input(*curve, job, typed);
+    add_curve_options(*curve, job, typed);
+    curve->add_option("-o,--curve-out", job.run.outputs.curve, "C.json (default: standard output)");
+    curve->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
+    curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
+}
+
+void add_surface(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
+    surface->add_option("FILE", job.run.path.input, "a grid or sections (.json); - reads standard input")->required();
+    surface->add_option("--format", typed.format, "json: format of the input, whatever its name is");
+    add_surface_options(*surface, job.surface);
+    surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
+    surface->add_option("--scalar", typed.scalar,
+                        "fixed, float or double: number type of parameters, knots and control points (default double)");
+    surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
+                                "path.csv\n") +
+                    exit_statuses);
+}
+
+} // namespace
+
+const char* const exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
+                                  "stands), a tolerance was not kept, or a "
+                                  "drive cannot be used; 2 bad input or usage (the message is one line).";
+
+void describe_commands(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const run = app.add_subcommand("run", "Plan a path and execute it");
+    add_input(*run, job, typed);
+    add_machine_options(*run, job, typed, true);
+    add_curve_options(*run, job, typed);
+    add_gcode_options(*run, job);
+    run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    CLI::App* const plan = app.add_subcommand("plan", "Plan a path without executing it");
+    add_input(*plan, job, typed);
+    add_machine_options(*plan, job, typed, false);
+    add_curve_options(*plan, job, typed);
+    add_gcode_options(*plan, job);
+    plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
+    add_check(app, job, typed);
+    add_curve(app, job, typed);
+    add_surface(app, job, typed);
+    CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
+    add_drive_options(*drive, job.drive);
+    drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
+                  "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and "
+                  "exits with 0.");
+    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how reliably");
+    add_link_options(*link, job.link);
+    link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
+                 exit_statuses);
+    for (CLI::App* const command : app.get_subcommands([](CLI::App* /*command*/) { return true; })) {
+        for (CLI::Option* const option : command->get_options()) {
+            option->type_name(""); // the descriptions say what a value may be
+        }
+        command->allow_extras();
+        command->set_help_flag("-h,--help", "print this help");
+    }
 }
 
 } // namespace splinefeed::host

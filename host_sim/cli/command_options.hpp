@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// command_options: the options of run, plan, check and curve, with what --help says of them.
+// command_options: the commands and their options, with what --help says of them.
 #pragma once
 
 #include "host_sim/cli/job.hpp"
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace splinefeed::host {
 
@@ -22,10 +25,10 @@ struct Typed {
     bool json = false; ///< of check
 };
 
-void add_input(CLI::App& app, Job& job, Typed& typed);
-void add_curve_options(CLI::App& app, Job& job, Typed& typed);
-void add_gcode_options(CLI::App& app, Job& job);
-/// @param executes  the command moves a machine
-void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes);
+/// For --help.
+extern const char* const exit_statuses;
+
+/// Adds all commands. What is typed goes to `job` and `typed`, which must outlive the app.
+void describe_commands(CLI::App& app, Job& job, Typed& typed);
 
 } // namespace splinefeed::host

@@ -7,7 +7,6 @@
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/ports/target_table.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -25,13 +24,6 @@ double measuring_time(const std::string& text) {
 }
 
 } // namespace
-
-void add_link_options(CLI::App& app, LinkArguments& arguments) {
-    app.add_option("--target", arguments.target, target_help());
-    app.add_option("-m,--machine", arguments.machine,
-                   "machine file (.toml), for modbus and gpio:// (default: three axes)");
-    app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
-}
 
 int report_link(const LinkArguments& arguments) {
     if (arguments.target.empty() || arguments.target == "sim") {

@@ -4,10 +4,6 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace splinefeed::host {
 
 struct LinkArguments {
@@ -15,8 +11,6 @@ struct LinkArguments {
     std::string machine; ///< empty: the default machine
     std::string seconds = "3";
 };
-
-void add_link_options(CLI::App& app, LinkArguments& arguments);
 
 /// Measures every drive of the target for the given time and prints the result with advice; nothing moves. Returns the
 /// exit status, 0. Throws UsageError, InputError, and TargetError if a drive cannot be used or is in fault.

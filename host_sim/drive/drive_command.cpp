@@ -12,7 +12,6 @@
 #include "host_sim/drive/pvt_drive.hpp"
 #include "host_sim/drive/vfd_drive.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <fmt/format.h>
 #include <random>
@@ -209,43 +208,6 @@ void check_records(const DriveArguments& arguments) {
 }
 
 } // namespace
-
-void add_drive_options(CLI::App& app, DriveArguments& arguments) {
-    const auto option = [&app](const char* name, std::optional<std::string>& value, const std::string& text) {
-        return app.add_option(name, value, text);
-    };
-    app.add_option(
-        "--listen", arguments.listen,
-        "tcp://127.0.0.1:1502 (default; ?unit=1), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
-        "with &pace=off faster than a line of that rate");
-    app.add_option("--profile", arguments.profile,
-                   "the drive that it plays: a name or FILE.toml (default splinefeed-pvt)");
-    app.add_flag("--list-profiles", arguments.list_profiles, "print the profiles and do nothing else")
-        ->disable_flag_override();
-    option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
-    option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
-    option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
-    option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
-    option("--faults", arguments.faults,
-           list_drive_faults() +
-               "; P: probability per exchange, MS: for so long, S: when, N: a number; several with commas");
-    app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too")->disable_flag_override();
-    const std::string shafts = "Shafts (one value, or one for each axis)";
-    option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)")->group(shafts);
-    option("--max-acceleration", arguments.max_acceleration, "[counts/s^2]; beyond is a fault (default: none)")
-        ->group(shafts);
-    option("--stop-deceleration", arguments.stop_deceleration, "of a quick stop [counts/s^2] (default 2e6)")
-        ->group(shafts);
-    const std::string loop = "Position loop";
-    option("--bandwidth", arguments.bandwidth, "[Hz] (default 60)")->group(loop);
-    option("--damping", arguments.damping, "0 to 0.999 (default 0.7)")->group(loop);
-    option("--feed-forward", arguments.feed_forward, "of the acceleration; 1 follows exactly (default 1)")->group(loop);
-    const std::string outputs = "Outputs";
-    app.add_option("--record", arguments.record, "T.csv: where the shafts are, each millisecond [counts]")
-        ->group(outputs);
-    app.add_option("--record-segments", arguments.record_segments, "S.csv: each segment when it was executed")
-        ->group(outputs);
-}
 
 int run_drive(const DriveArguments& arguments) {
     if (arguments.list_profiles) {

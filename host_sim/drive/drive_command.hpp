@@ -5,10 +5,6 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace splinefeed::host {
 
 /// No value: not given.
@@ -31,8 +27,6 @@ struct DriveArguments {
     bool allow_remote = false;
     bool list_profiles = false;
 };
-
-void add_drive_options(CLI::App& app, DriveArguments& arguments);
 
 /// Serves until SIGTERM or SIGINT; then the records are complete. Returns the exit status. Throws UsageError,
 /// OutputError.

@@ -5,7 +5,6 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/option_number.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <fmt/format.h>
 
@@ -22,26 +21,6 @@ std::size_t choose(std::string_view option, std::string_view text, std::array<st
 }
 
 } // namespace
-
-void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
-    const std::string group = "Tool path";
-    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
-        app.add_option(name, value, text)->group(group);
-    };
-    option("--along", arguments.along,
-           "u or v: the parameter that runs along the lines (default: no path, the surface)");
-    option("--lines", arguments.lines, "number of lines, 2 to 100000");
-    option("--scallop", arguments.scallop, "instead: as many as leave ridges of this height [mm] at most");
-    option("--ball-radius", arguments.ball_radius,
-           "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
-    option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
-    option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
-    option("--lift", arguments.lift,
-           "one-way: height of the way back above the highest control point [mm] (default 5)");
-    option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
-    app.add_option("-o,--output", arguments.output,
-                   "WAYPOINTS.csv or CURVE.json (default: standard output, waypoints)");
-}
 
 std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments) {
     if (!arguments.along) {

@@ -8,10 +8,6 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace splinefeed::host {
 
 /// No value: not given.
@@ -26,8 +22,6 @@ struct SurfaceArguments {
     std::optional<std::string> step;
     std::string output; ///< empty: standard output
 };
-
-void add_surface_options(CLI::App& app, SurfaceArguments& arguments);
 
 /// Checks the options. Returns nothing if no tool path is wanted. Throws UsageError.
 [[nodiscard]] std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments);
