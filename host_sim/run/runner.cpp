@@ -140,6 +140,34 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
     return start;
 }
 
+/// A target with what goes with it; the simulated machine has none.
+struct Connected {
+    std::unique_ptr<RunTarget, DeleteInTime> target{};
+    std::unique_ptr<ProgramOutputs, DeleteInTime> outputs{};
+    std::optional<RunStart> start{};
+};
+
+/// @param figures  become those that the target carries
+/// @param begins  where the program begins, becomes where the machine stands
+Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& input, const PathLimits& limits,
+                  PlanFigures& figures, MachineState& begins) {
+    Connected out;
+    out.target.reset(target_kind(arguments.target).make(arguments.target, of.machine, arguments.options).release());
+    figures = fitted(of.machine, arguments.path.scalar, *out.target, arguments.motion.quiet);
+    out.target->check(of.machine, figures.segment_ticks / static_cast<double>(ticks_per_us));
+    out.start = find_start(arguments, of, *out.target, input, begins, limits);
+    out.outputs.reset(input.gcode() != nullptr ? make_outputs(of.machine, arguments.target).release() : nullptr);
+    return out;
+}
+
+/// For those who think that the machine of their file moves.
+void note_simulation(const RunArguments& arguments, const MachineDescription& machine) {
+    if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
+        tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
+             printable(machine.file));
+    }
+}
+
 ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
                          const std::string& stopped) {
     return {.program = input.name(),
@@ -160,8 +188,7 @@ int run(const RunArguments& arguments) {
     const auto begun = std::chrono::steady_clock::now();
     RunMachine of(arguments.machine, *arguments.path.format);
     MachineDescription& machine = of.machine;
-    const ScalarKind scalar = arguments.path.scalar;
-    PlanFigures figures = plan_figures(scalar, machine);
+    PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
@@ -174,18 +201,12 @@ int run(const RunArguments& arguments) {
     const PathLimits path_limits(machine);
     const std::optional<std::uint64_t> waypoints =
         look_before(input, path_limits, machine.settings.axes, signals.has_value());
-    std::unique_ptr<RunTarget, DeleteInTime> target;
-    std::unique_ptr<ProgramOutputs, DeleteInTime> program_outputs;
+    Connected real;
     std::optional<StateKeeper> state;
     std::optional<Supervision> supervision;
-    std::optional<RunStart> start;
     if (signals) {
-        target.reset(target_kind(arguments.target).make(arguments.target, machine, arguments.options).release());
-        figures = fitted(machine, scalar, *target, arguments.motion.quiet);
-        target->check(machine, figures.segment_ticks / static_cast<double>(ticks_per_us));
-        start = find_start(arguments, of, *target, input, motion_arguments.begins, path_limits);
-        motion_arguments.start = &*start;
-        program_outputs.reset(input.gcode() != nullptr ? make_outputs(machine, arguments.target).release() : nullptr);
+        real = connect(arguments, of, input, path_limits, figures, motion_arguments.begins);
+        motion_arguments.start = &*real.start;
     }
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
         motion_arguments.state = &state.emplace(arguments.state, of.axes, motion_arguments.begins);
@@ -194,15 +215,12 @@ int run(const RunArguments& arguments) {
     if (!arguments.outputs.report.empty()) {
         motion_arguments.record = &report.emplace(arguments.outputs.report, machine, figures.segment_ticks).record();
     }
-    if (target != nullptr) {
-        supervision.emplace(*target, *signals, program_outputs.get(), motion_arguments.state,
+    if (signals) {
+        supervision.emplace(*real.target, *signals, real.outputs.get(), motion_arguments.state,
                             report ? &report->record().target() : nullptr);
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
-    if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
-        tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
-             printable(machine.file));
-    }
+    note_simulation(arguments, machine);
     Motion motion(motion_arguments, machine, figures, input, path_limits, outputs,
                   supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
