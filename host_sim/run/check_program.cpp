@@ -7,7 +7,6 @@
 #include "host_sim/output/progress.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/move_sources.hpp"
-#include "host_sim/report/run_report.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +88,14 @@ private:
     UnreadLines unread_{};
 };
 
+/// The page of a program that cannot be planned: it shows the program, and what is wrong.
+void write_problems(const RunArguments& arguments, const MachineDescription& machine, std::uint32_t segment_ticks,
+                    PathInput& input, const ProgramFindings& findings) {
+    RunReport page(arguments.outputs.report, machine, segment_ticks);
+    Survey(machine, input.name(), &page.record()).read(input);
+    page.write(report_facts(arguments, input, {}, fmt::format("{}", fmt::join(findings.problems, "\n"))));
+}
+
 } // namespace
 
 int check_program(const RunArguments& arguments) {
@@ -111,18 +118,10 @@ int check_program(const RunArguments& arguments) {
     if (!input.dialect_choice().empty()) {
         findings.notes.insert(findings.notes.begin(), input.dialect_choice());
     }
-    if (!findings.problems.empty() && !arguments.outputs.report.empty()) {
-        // The program cannot be planned: the page shows it, and what is wrong.
-        RunReport page(arguments.outputs.report, of.machine, figures.segment_ticks);
-        Survey(of.machine, input.name(), &page.record()).read(input);
-        const Summary summary;
-        page.write({.program = input.name(),
-                    .text_file = arguments.path.input,
-                    .unit = "line",
-                    .stopped = fmt::format("{}", fmt::join(findings.problems, "\n")),
-                    .summary = &summary});
-    }
     if (!findings.problems.empty()) {
+        if (!arguments.outputs.report.empty()) {
+            write_problems(arguments, of.machine, figures.segment_ticks, input, findings);
+        }
         print_whole(text(survey.report(), of.machine, findings), "the report");
         return 1;
     }
@@ -143,11 +142,7 @@ int check_program(const RunArguments& arguments) {
     const std::string stopped = motion.run(survey.report().feeds().moves + survey.report().rapids().moves);
     const Summary summary = motion.summary();
     if (page) {
-        page->write({.program = input.name(),
-                     .text_file = arguments.path.input,
-                     .unit = "line",
-                     .stopped = stopped,
-                     .summary = &summary});
+        page->write(report_facts(arguments, input, summary, stopped));
     }
     if (!stopped.empty()) {
         findings.problems.push_back(stopped);

@@ -13,7 +13,6 @@
 #include "host_sim/planning/planned_path.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/target_table.hpp"
-#include "host_sim/report/run_report.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/output_table.hpp"
 #include "host_sim/run/path_watch.hpp"
@@ -168,6 +167,8 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
     }
 }
 
+} // namespace
+
 ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
                          const std::string& stopped) {
     return {.program = input.name(),
@@ -176,8 +177,6 @@ ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, 
             .stopped = stopped,
             .summary = &summary};
 }
-
-} // namespace
 
 int run(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.

@@ -5,6 +5,7 @@
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/program/path_input.hpp"
+#include "host_sim/report/run_report.hpp"
 #include "host_sim/run/motion.hpp"
 
 #include <string>
@@ -33,6 +34,11 @@ struct RunArguments {
 /// A file is checked completely, limits included, before anything moves. A pipe moves the machine while it is read, in
 /// constant memory: an error after the first move ends the run with a controlled stop.
 [[nodiscard]] int run(const RunArguments& arguments);
+
+/// What the page of a run or of a check says beside the motion. The summary must outlive it.
+/// @param stopped  ReportFacts::stopped
+[[nodiscard]] ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
+                                       const std::string& stopped);
 
 /// Writes the curve through the points as Bezier segments; nothing moves. Returns 0. Throws like run().
 [[nodiscard]] int draw(const RunArguments& arguments);
