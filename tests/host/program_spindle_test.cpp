@@ -23,8 +23,14 @@ TEST_CASE("A spindle that turns follows S, one that stands does not wait for it"
     CHECK(spindle.take(EventKind::spindle_counterclockwise, 10000.0, machine).empty());
     CHECK(spindle.turn()->direction == -1);
     CHECK(spindle.change_s() == 4.0);
+    CHECK(spindle.take(EventKind::surface_speed, 5000.0, machine).empty());
+    CHECK_FALSE(spindle.turn()); // nothing waits for it
+    CHECK(spindle.change_s() == 0.0);
+    CHECK(spindle.take(EventKind::spindle_speed, 7500.0, machine).empty());
+    CHECK(spindle.change_s() == 0.5); // from the speed that it followed to
     CHECK(spindle.take(EventKind::spindle_stop, 0.0, machine).empty());
     CHECK(spindle.turn()->direction == 0);
+    CHECK(spindle.take(EventKind::surface_speed, 500.0, machine).empty());
     CHECK(spindle.take(EventKind::spindle_speed, 500.0, machine).empty());
 }
 
@@ -38,6 +44,7 @@ TEST_CASE("Speeds that the spindle does not have are refused") {
     CHECK_FALSE(spindle.take(EventKind::spindle_clockwise, 999.0, machine).empty());
     CHECK_FALSE(spindle.take(EventKind::spindle_clockwise, 10001.0, machine).empty());
     CHECK(spindle.take(EventKind::spindle_clockwise, 1000.0, machine).empty());
+    CHECK_FALSE(spindle.take(EventKind::surface_speed, 999.0, machine).empty());
     CHECK_FALSE(spindle.take(EventKind::spindle_speed, 999.0, machine).empty());
     ProgramSpindle without_least;
     CHECK(without_least.take(EventKind::spindle_clockwise, 20000.0, {.max_rpm = 10000.0}) ==

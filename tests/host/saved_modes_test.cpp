@@ -52,6 +52,8 @@ TEST_CASE("the lines put back all modes but the motion") {
         {"G20 F3", "G21 G61.1", "G92 X5", "G92.2", "M7"}, // F was in inches
         {"G93 G1 X1 F2", "G19"},
         {"G95 G7 F0.02"},
+        {"G96 D2000 S100 M3"},
+        {"G20 G64 P0.01 Q0.001", "G96 S300 G95 F0.01"},
         {"G17 G94 G41.1 D1", "G0 X10"},
     };
     for (const auto& before : states) {

@@ -121,7 +121,7 @@ TEST_CASE("what does not belong together is refused", "[program][refusals]") {
         {"G76 Z1", ProgramError::thread_unsupported, 1},
         {"G71", ProgramError::lathe_unsupported, 1},
         {"G87 Z1", ProgramError::boring_unsupported, 1},
-        {"G96 S3", ProgramError::surface_speed_unsupported, 1},
+        {"G96", ProgramError::surface_speed_missing, 1},
         {"G43.2 H1", ProgramError::tool_offset_sum_unsupported, 1},
         {"M19", ProgramError::spindle_orientation_unsupported, 1},
         {"M67 E1", ProgramError::analog_output_invalid, 1},

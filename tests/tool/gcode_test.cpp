@@ -271,14 +271,6 @@ TEST_CASE("The simulated spindle takes its time at standstill, and has the speed
     CHECK(checked.output.find("part.ngc:1: the spindle would turn with S30000") != std::string::npos);
 }
 
-TEST_CASE("A real target without an inverter refuses a spindle before anything moves") {
-    const Tool tool;
-    const std::string error = error_of(tool, "S1000 M3\nG1 X10 F3000\nM2\n", "--target modbus-tcp://127.0.0.1:1");
-    CHECK(
-        error.rfind("part.ngc:1: spindle_speed: the machine file has no spindle for this; name its frequency inverter",
-                    0) == 0);
-}
-
 TEST_CASE("Q of G64 bounds the chains of short moves, also by way of --elements") {
     const Tool tool;
     std::string machine; // the default one
@@ -308,26 +300,6 @@ TEST_CASE("Q of G64 bounds the chains of short moves, also by way of --elements"
     CHECK(run("G64 P0.02") == run("G64 P0.02 Q0.02"));
 }
 
-TEST_CASE("A real target refuses probe moves and homing within a program, before anything moves") {
-    const Tool tool;
-    const std::string target = "--target modbus-tcp://127.0.0.1:1";
-    const std::string begin = "G1 X10 F3000\n";
-    for (const int number : {2, 3, 4, 5}) {
-        const std::string word = "G38." + std::to_string(number);
-        CHECK(error_of(tool, begin + word + " Z-5 F100\nM2\n", target)
-                  .rfind("part.ngc:2: " + word + ": only the simulated machine probes within a program so far", 0) ==
-              0);
-        CHECK(seconds(tool, begin + word + " Z-5 F100\nM2\n") > 0.0);
-    }
-    CHECK(error_of(tool, begin + "G28\n", target + " --dialect marlin")
-              .rfind("part.ngc:2: G28: only the simulated machine homes within a program so far", 0) == 0);
-    CHECK(error_of(tool, begin + "$H\n", target + " --dialect grbl").rfind("part.ngc:2: $H: only the simulated", 0) ==
-          0);
-    // Left out: what is missing then is the drive.
-    tool.write("part.ngc", begin + "G28 X Y\n");
-    CHECK(tool("run part.ngc --dialect marlin --ignore G28 " + target).status == 1);
-}
-
 TEST_CASE("A line may be as long as lines are, and have a comment behind it") {
     const Tool tool;
     const auto line = [](std::size_t characters) {
@@ -337,50 +309,6 @@ TEST_CASE("A line may be as long as lines are, and have a comment behind it") {
     CHECK(seconds(tool, line(255)) > 0.0);
     CHECK(seconds(tool, line(256)) > 0.0);
     CHECK(error_of(tool, line(257)).rfind("part.ngc:1:257: ", 0) == 0);
-}
-
-TEST_CASE("A real target refuses coolant and outputs that the machine file does not name before anything moves") {
-    const Tool tool;
-    const std::string target = "--target modbus-tcp://127.0.0.1:1";
-    CHECK(error_of(tool, "M8\nG1 X10 F3000\nM2\n", target) ==
-          "part.ngc:1: flood_on: the machine file has no line for this; name it in [coolant.flood], or add the word to "
-          "--ignore\n");
-    CHECK(
-        error_of(tool, "G1 X10 F3000\nM9\nM2\n", target) ==
-        "part.ngc:2: coolant_off: the machine file has no coolant; name its line in [coolant.mist] or [coolant.flood], "
-        "or add the word to --ignore\n");
-    CHECK(error_of(tool, "G1 X10 F3000\nM62 P3\nX20\nM2\n", target) ==
-          "part.ngc:2: output_on_with_motion: the machine file has no output 3; name its line in [[output]] with "
-          "number = "
-          "3, or add the word to --ignore\n");
-}
-
-TEST_CASE("A real target refuses inputs that the machine file does not name before anything moves") {
-    const Tool tool;
-    const std::string target = "--target modbus-tcp://127.0.0.1:1";
-    CHECK(error_of(tool, "G1 X10 F3000\nM66 P3 L3 Q1\nX20\nM2\n", target) ==
-          "part.ngc:2: input_wait: the machine file has no input 3; name its line in [[input]] with number = 3, or add "
-          "the word to --ignore\n");
-    CHECK(error_of(tool, "G1 X10 F3000\nM66 E0 L0\nM2\n", target)
-              .rfind("part.ngc:2: input_wait: M66 E reads an analog", 0) == 0);
-}
-
-TEST_CASE("Tapping and threads are of the simulated machine, feeds for each turn of all") {
-    const Tool tool;
-    const std::string target = "--target modbus-tcp://127.0.0.1:1";
-    for (const std::string word : {"G84 Z-5 R1 F50", "G33 Z-5 K1", "G33.1 Z-5 K1"}) {
-        const std::string program = "G0 Z5\nM3 S600\n" + word + "\nM2\n";
-        CHECK(error_of(tool, program, target).find("part.ngc:2: spindle_speed: the machine file has no spindle") == 0);
-        CHECK(error_of(tool, program, target + " --ignore S,M3").find("part.ngc:3:") == 0); // nothing turns
-        CHECK(seconds(tool, program) > 0.1);
-    }
-    CHECK(seconds(tool, "G95 S600 F0.1\nG1 X10\nM2\n") == Approx(seconds(tool, "F60 G1 X10\nM2\n")).margin(1e-6));
-}
-
-TEST_CASE("Analog outputs are of the simulated machine") {
-    const Tool tool;
-    CHECK(error_of(tool, "G1 X10 F3000\nM67 E1 Q2\nX20\nM2\n", "--target modbus-tcp://127.0.0.1:1")
-              .rfind("part.ngc:2: analog_output_with_motion: only the simulated machine does this so far", 0) == 0);
 }
 
 TEST_CASE("A dwell behind a message takes its time") {

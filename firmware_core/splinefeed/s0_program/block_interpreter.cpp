@@ -57,6 +57,7 @@ void BlockInterpreter::restart() noexcept {
 void BlockInterpreter::drop_block() noexcept {
     nurbs_.abandon();
     cutter_.clear();
+    surface_.clear();
     plan_.clear();
     stage_ = all_done;
     in_pieces_ = false;
@@ -231,6 +232,12 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
     }
     if (const BlockStatus status = modal_.apply(block_, settings_); !status.ok()) {
         return status;
+    }
+    if (modal_.surface.applies() && letters_.index('x') < 0) {
+        return block_.at(ProgramError::axis_missing, CodeGroup::spindle_mode);
+    }
+    if (before.surface.applies() && !modal_.surface.applies() && !block_.has('s')) {
+        modal_.speed = told_speed_; // it keeps what it has
     }
     if (block_.has(CodeGroup::tool_change)) {
         WorkOffsets& offsets = frame_.offsets();

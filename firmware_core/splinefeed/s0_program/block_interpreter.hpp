@@ -8,6 +8,7 @@
 #include "splinefeed/s0_program/nurbs_curve.hpp"
 #include "splinefeed/s0_program/program_arc.hpp"
 #include "splinefeed/s0_program/program_step.hpp"
+#include "splinefeed/s0_program/surface_path.hpp"
 #include "splinefeed/s0_program/word_use.hpp"
 
 #include <variant>
@@ -63,7 +64,7 @@ public:
 
 protected:
     /// Whether the block has steps left, or may have.
-    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done || cutter_.gives(); }
+    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done || cutter_.gives() || surface_.gives(); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
@@ -123,6 +124,11 @@ private:
     void fill_corner(ProgramStep& out) noexcept;
     [[nodiscard]] bool hold_back(const ProgramStep& step, const ProgramEvent& event) noexcept;
 
+    // Constant surface speed: surface_steps.cpp.
+    [[nodiscard]] bool follow_radius(const ProgramStep& step, ProgramEvent& event) noexcept;
+    [[nodiscard]] Decimal radius_at(const AxisPoint& machine) const noexcept;
+    void give_piece(ProgramStep& out, ProgramEvent& event) noexcept;
+
     // Motion: motion_words.cpp.
     BlockStatus plan_motion(const BlockUse& use, const ModalState& before) noexcept;
     BlockStatus plan_line() noexcept;
@@ -173,6 +179,9 @@ private:
     AxisPoint emitted_{}; // where the moves that next() has given end
     CutterPath cutter_{};
     ArcPlan tool_arc_{};
+    SurfacePath surface_{};
+    Decimal told_speed_{};                     // of the spindle, by the last event
+    bool settles_ = false;                     // behind a rapid under G96 the spindle is to be waited for
     const MoveManner* manner_ = &plan_.manner; // of the item that next() gives
     std::uint32_t item_line_ = 0;
     CycleWords cycle_words_{};

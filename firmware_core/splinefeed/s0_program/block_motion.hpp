@@ -32,9 +32,11 @@ struct BezierPlan {
 struct MoveManner {
     PathMode mode = PathMode::continuous;
     bool inverse_time = false;
+    bool per_turn = false; ///< under G96: the feed is the way of a turn
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};
     Decimal feed{};
+    SurfaceSpeed surface{}; ///< of a spindle that turns
 };
 
 struct BlockMotion {

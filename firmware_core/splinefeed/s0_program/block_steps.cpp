@@ -206,18 +206,27 @@ bool BlockInterpreter::end_program() noexcept {
 }
 
 Pull BlockInterpreter::next_step(ProgramStep& out, ProgramEvent& event) noexcept {
-    for (;;) {
-        if (cutter_.gives()) {
-            give_held(out, event);
+    for (;; out = {}) {
+        if (surface_.gives()) {
+            give_piece(out, event);
             return Pull::item;
         }
-        manner_ = &plan_.manner;
-        item_line_ = line_;
-        const Pull pull = next_of_block(out, event);
-        if (pull != Pull::item || !hold_back(out, event)) {
-            return pull;
+        if (cutter_.gives()) {
+            give_held(out, event);
+        } else {
+            manner_ = &plan_.manner;
+            item_line_ = line_;
+            const Pull pull = next_of_block(out, event);
+            if (pull != Pull::item) {
+                return pull;
+            }
+            if (hold_back(out, event)) {
+                continue;
+            }
         }
-        out = {};
+        if (!follow_radius(out, event)) {
+            return Pull::item;
+        }
     }
 }
 

@@ -84,8 +84,7 @@ struct CodeRows {
         Row{930, 930, feed_mode, ProgramError::none, in_grbl},
         Row{940, 940, feed_mode, ProgramError::none, in_both},
         Row{950, 950, feed_mode},
-        Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported},
-        Row{970, 970, spindle_mode},
+        Row{960, 970, spindle_mode},
         Row{980, 980, retract, ProgramError::none, in_grbl},
         Row{990, 990, retract, ProgramError::none, in_grbl},
     };
@@ -107,6 +106,7 @@ struct CodeRows {
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
         Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
+        Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported, in_fanuc},
     };
 
     static constexpr Row m_extras[] = {

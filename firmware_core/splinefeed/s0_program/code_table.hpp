@@ -22,7 +22,7 @@ enum class CodeGroup : std::uint8_t {
     retract,         ///< G98 G99
     work_system,     ///< G54 to G59.3
     path_mode,       ///< G61 G61.1 G64
-    spindle_mode,    ///< G97
+    spindle_mode,    ///< G96 G97
     lathe_diameter,  ///< G7 G8
     without_effect,  ///< G15 G50 G69 and others of fanuc; they do not exclude each other
     // M

@@ -104,6 +104,7 @@ void Interpreter<S>::fill_move(const ProgramStep& step, ProgramItem<S>& out) con
     PathElement<S>& element = out.element;
     element.shape = step.shape;
     element.stop_at_end = step.stop_at_end;
+    element.joined = step.joined;
     for (const unsigned k : indices(letters().count())) {
         element.to[k] = to_position(step.to[k]);
     }

@@ -55,11 +55,8 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     if (const BlockStatus status = apply_feed(block); !status.ok()) {
         return status;
     }
-    if (states_speed(block, rules_of(settings.dialect))) {
-        if (block.value('s').raw < 0) {
-            return block.at(ProgramError::speed_negative, 's');
-        }
-        speed = block.value('s');
+    if (const BlockStatus status = apply_speed(block, settings); !status.ok()) {
+        return status;
     }
     if (block.has('t') && (!to_integer(block.value('t'), selected_tool) || selected_tool < 0)) {
         return block.at(ProgramError::tool_unknown, 't');
@@ -113,6 +110,30 @@ BlockStatus ModalState::apply_feed(const Block& block) noexcept {
     }
     feed = value;
     feed_in_inches = inches && !inverse_time;
+    return {};
+}
+
+// The units are those of the blocks before, as those of F are.
+BlockStatus ModalState::apply_speed(const Block& block, const ProgramSettings& settings) noexcept {
+    const std::int16_t mode = block.code(CodeGroup::spindle_mode);
+    const bool stated = states_speed(block, rules_of(settings.dialect));
+    if (mode == 960 && (!stated || (block.has('d') && block.value('d').raw == 0))) {
+        return block.at(ProgramError::surface_speed_missing, CodeGroup::spindle_mode);
+    }
+    if (mode != Block::no_code) {
+        const Decimal most{static_cast<std::int64_t>(detail::magnitude(block.value('d').raw))};
+        surface.most = mode == 970                                    ? Decimal{}
+                       : block.has('d') && most < settings.most_speed ? most
+                                                                      : settings.most_speed;
+    }
+    if (stated && block.value('s').raw < 0) {
+        return block.at(ProgramError::speed_negative, 's');
+    }
+    if (stated) {
+        speed = block.value('s');
+        surface.set(speed, inches);
+    }
+    surface = surface.applies() ? surface : SurfaceSpeed{};
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include "splinefeed/s0_program/block.hpp"
 #include "splinefeed/s0_program/contour_element.hpp"
 #include "splinefeed/s0_program/dialect_rules.hpp"
+#include "splinefeed/s0_program/surface_speed.hpp"
 
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
@@ -36,7 +37,8 @@ struct ModalState {
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};
     Decimal feed{};  ///< mm/min or degrees/min; G93: 1/min; G95: mm or degrees a turn; 0: none yet
-    Decimal speed{}; ///< 1/min
+    Decimal speed{}; ///< S: 1/min; G96: m/min, in inches feet/min
+    SurfaceSpeed surface{};
 
     /// Before the first block.
     [[nodiscard]] static ModalState at_start(const ProgramSettings& settings) noexcept;
@@ -61,6 +63,7 @@ private:
     // Exact for what in_mm() made.
     [[nodiscard]] static Decimal in_inches(Decimal mm) noexcept { return {product_quotient(mm.raw, 10, 254).raw}; }
     BlockStatus apply_feed(const Block& block) noexcept;
+    BlockStatus apply_speed(const Block& block, const ProgramSettings& settings) noexcept;
     BlockStatus apply_path_mode(const Block& block, const ProgramSettings& settings) noexcept;
 };
 

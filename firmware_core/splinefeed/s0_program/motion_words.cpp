@@ -12,6 +12,10 @@ bool is_feed_motion(std::int16_t motion) noexcept {
     return motion != 0 && motion != ModalState::no_motion;
 }
 
+bool needs_one_speed(std::int16_t motion) noexcept {
+    return motion == 330 || motion == 331 || taps(motion) || (motion >= 50 && motion <= 52);
+}
+
 } // namespace
 
 SpacePoint BlockInterpreter::space(const AxisPoint& point) const noexcept {
@@ -85,8 +89,13 @@ BlockStatus BlockInterpreter::require_feed() const noexcept {
 
 // The spindle is where it was told to be: nobody measures it.
 BlockStatus BlockInterpreter::set_feed_of_turns(Decimal way) noexcept {
-    if (modal_.speed.raw == 0) {
+    const bool follows = modal_.surface.applies();
+    if (modal_.speed.raw == 0 || (follows && modal_.spindle == SpindleState::stopped)) {
         return block_.at(ProgramError::spindle_stands, CodeGroup::motion);
+    }
+    if (follows) {
+        plan_.manner.per_turn = true;
+        return {};
     }
     return modal_.feed_of_turns(way, plan_.manner.feed) ? BlockStatus{}
                                                         : block_.at(ProgramError::feed_out_of_range, CodeGroup::motion);
@@ -125,7 +134,13 @@ BlockStatus BlockInterpreter::plan_turning(bool follows) noexcept {
 
 BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState& before) noexcept {
     const std::int16_t modeless = block_.code(CodeGroup::non_modal);
-    plan_.manner = {modal_.path_mode, modal_.inverse_time, modal_.tolerance_mm, modal_.chain_tolerance_mm, modal_.feed};
+    plan_.manner = {modal_.path_mode,
+                    modal_.inverse_time,
+                    false,
+                    modal_.tolerance_mm,
+                    modal_.chain_tolerance_mm,
+                    modal_.feed,
+                    modal_.spindle == SpindleState::stopped ? SurfaceSpeed{} : modal_.surface};
     if (modeless == 53) {
         return end_nurbs();
     }
@@ -144,6 +159,9 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     cycle_words_.begun = cycle_words_.begun && cycle;
     if (cycle && modal_.inverse_time) {
         return block_.at(ProgramError::inverse_feed_cycle, CodeGroup::motion);
+    }
+    if (modal_.surface.applies() && needs_one_speed(use.motion)) {
+        return block_.at(ProgramError::surface_speed_unsuited, CodeGroup::motion);
     }
     if (use.motion == 330 || use.motion == 331) {
         return plan_turning(before.motion == 330);

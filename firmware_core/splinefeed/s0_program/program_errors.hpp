@@ -99,6 +99,8 @@ enum class ProgramError : std::uint8_t {
     tapping_direction,
     turn_way_missing,
     spindle_stands,
+    surface_speed_missing,
+    surface_speed_unsuited,
     spline_plane,
     spline_axis_word,
     spline_offset_missing,

@@ -73,7 +73,8 @@ struct ProgramSettings {
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;
     std::size_t ignored_count = 0;
-    bool ignores_unknown = false;     ///< words that the dialect does not have are left out
+    Decimal most_speed = Decimal::from_integer(100000); ///< of the spindle by G96 without D [1/min]
+    bool ignores_unknown = false;                       ///< words that the dialect does not have are left out
     bool increments = false;          ///< lengths without a decimal point count 0.001 mm, in inches 0.0001
     LeftOutWords* left_out = nullptr; ///< none: nobody asks
     const ToolTable* tools = nullptr; ///< none: G43, G41 and G42 are refused

@@ -15,6 +15,7 @@ struct ProgramStep {
     bool stops_before = false;
     bool stop_at_end = false;
     bool is_contour = false; // cutter compensation holds it back
+    bool joined = false;     // it goes on with the direction and curvature of the step before it
     std::uint32_t home_axes = 0;
     AxisPoint from{};
     AxisPoint to{};

@@ -161,6 +161,8 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
                           {"units_per_rev"sv, interpreter_->modal_.per_turn},
                           {"lathe_diameter_mode"sv, interpreter_->modal_.diameter},
                           {"lathe_radius_mode"sv, !interpreter_->modal_.diameter},
+                          {"spindle_css_mode"sv, interpreter_->modal_.surface.applies()},
+                          {"spindle_rpm_mode"sv, !interpreter_->modal_.surface.applies()},
                           {"spindle_on"sv, interpreter_->modal_.spindle != SpindleState::stopped},
                           {"spindle_cw"sv, interpreter_->modal_.spindle == SpindleState::clockwise}};
     for (const Flag& flag : flags) {

@@ -41,6 +41,7 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
     used |= block.code(CodeGroup::cutter_radius) > 400 ? Block::bits("dl") : 0;
+    used |= block.code(CodeGroup::spindle_mode) == 960 ? Block::bits("d") : 0;
     used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
     used |= block.code(CodeGroup::tool_change) == 61 ? Block::bits("q") : 0;
     if (input_output != Block::no_code) {

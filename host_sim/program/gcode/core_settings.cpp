@@ -29,6 +29,7 @@ ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* too
     out.increments = from.increments;
     out.left_out = from.left_out;
     out.tools = tools;
+    out.most_speed = from.spindle != nullptr ? decimal_of(from.spindle->max_rpm) : out.most_speed;
     return out;
 }
 

@@ -37,6 +37,11 @@ std::string impossible(const ProgramEvent& event, const GcodeSettings& settings)
         missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
                   "enable = { line = ... }, in [spindle]";
         break;
+    case EventKind::surface_speed:
+        return fmt::format(
+            "{}: only the simulated machine changes the speed of its spindle along a move so far; use G97 "
+            "and S in rpm in the place of G96",
+            action_name(event.kind));
     case EventKind::mist_on:
         if (lines.mist) {
             return {};

@@ -8,14 +8,16 @@ namespace splinefeed::host {
 
 bool ProgramSpindle::is_of(EventKind kind) noexcept {
     return kind == EventKind::spindle_speed || kind == EventKind::spindle_clockwise ||
-           kind == EventKind::spindle_counterclockwise || kind == EventKind::spindle_stop;
+           kind == EventKind::spindle_counterclockwise || kind == EventKind::spindle_stop ||
+           kind == EventKind::surface_speed;
 }
 
 std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescription& machine) {
     turn_.reset();
     change_s_ = 0.0;
     int direction = kind == EventKind::spindle_clockwise ? 1 : kind == EventKind::spindle_counterclockwise ? -1 : 0;
-    if (kind == EventKind::spindle_speed) {
+    const bool follows = kind == EventKind::surface_speed;
+    if (kind == EventKind::spindle_speed || follows) {
         direction = direction_;
         if (direction == 0) {
             return {};
@@ -34,8 +36,11 @@ std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescri
     }
     direction_ = direction;
     const double wanted = direction * rpm;
-    change_s_ = machine.change_s(signed_rpm_, wanted);
+    change_s_ = follows ? 0.0 : machine.change_s(signed_rpm_, wanted);
     signed_rpm_ = wanted;
+    if (follows) {
+        return {};
+    }
     turn_ = wanted == 0.0 ? SpindleTurn{} : SpindleTurn{direction, rpm};
     return {};
 }

@@ -14,7 +14,8 @@ class ProgramSpindle {
 public:
     /// @param kind  of an event of the spindle   @param rpm  its S   @param machine  the spindle; must outlive it
     /// Returns why the machine cannot do this; empty: it can. S alone changes a spindle that was
-    /// switched on. With S0 it stands, as in LinuxCNC: it is still switched on, and turns with the next S above 0.
+    /// switched on, and so does the speed that G96 follows to, for which nothing waits. With S0 it stands, as in
+    /// LinuxCNC: it is still switched on, and turns with the next S above 0.
     [[nodiscard]] std::string take(EventKind kind, double rpm, const SpindleDescription& machine);
 
     /// What the last event asks for; nothing: nothing that the spindle has to wait for.

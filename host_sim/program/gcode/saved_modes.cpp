@@ -83,12 +83,17 @@ std::vector<std::string> restoring_lines(const SavedModes& saved, const SavedMod
         out.push_back(tool_words(saved, axes));
     }
     const bool turns_otherwise = saved.modal.spindle != now.modal.spindle;
-    if (saved.modal.speed != now.modal.speed || turns_otherwise) {
+    const SurfaceSpeed& surface = saved.modal.surface;
+    const bool other_mode = surface.applies() ? surface != now.modal.surface : now.modal.surface.applies();
+    if (saved.modal.speed != now.modal.speed || turns_otherwise || other_mode) {
         const std::string_view word = !turns_otherwise                                        ? ""
                                       : saved.modal.spindle == SpindleState::clockwise        ? " M3"
                                       : saved.modal.spindle == SpindleState::counterclockwise ? " M4"
                                                                                               : " M5";
-        out.push_back(fmt::format("S{}{}", text_of(saved.modal.speed), word));
+        const std::string mode = !other_mode          ? ""
+                                 : !surface.applies() ? "G97 "
+                                                      : fmt::format("G96 D{} ", text_of(surface.most));
+        out.push_back(fmt::format("{}S{}{}", mode, text_of(saved.modal.speed), word));
     }
     CoolantState coolant = now.coolant;
     if ((coolant.mist && !saved.coolant.mist) || (coolant.flood && !saved.coolant.flood)) {
