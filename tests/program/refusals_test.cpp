@@ -118,7 +118,7 @@ TEST_CASE("what does not belong together is refused", "[program][refusals]") {
         {"G5.2 X1 Y1 L7 F100", ProgramError::nurbs_order_invalid, 12},
         {"G5.3", ProgramError::nurbs_not_begun, 1},
         {"G17.1", ProgramError::plane_unsupported, 1},
-        {"G76 Z1", ProgramError::thread_unsupported, 1},
+        {"G76 Z1", ProgramError::spindle_stands, 1},
         {"G71", ProgramError::lathe_unsupported, 1},
         {"G87 Z1", ProgramError::boring_unsupported, 1},
         {"G96", ProgramError::surface_speed_missing, 1},

@@ -81,7 +81,7 @@ TEST_CASE("A real target refuses inputs that the machine file does not name befo
 
 TEST_CASE("Tapping and threads are of the simulated machine, feeds for each turn of all") {
     const Tool tool;
-    for (const std::string word : {"G84 Z-5 R1 F50", "G33 Z-5 K1", "G33.1 Z-5 K1"}) {
+    for (const std::string word : {"G84 Z-5 R1 F50", "G33 Z-5 K1", "G33.1 Z-5 K1", "G76 P1 Z-5 I-1 J0.4 K0.8"}) {
         const std::string program = "G0 Z5\nM3 S600\n" + word + "\nM2\n";
         CHECK(error_of(tool, program).find("part.ngc:2: spindle_speed: the machine file has no spindle") == 0);
         CHECK(error_of(tool, program, target + " --ignore S,M3").find("part.ngc:3:") == 0); // nothing turns

@@ -9,6 +9,7 @@
 #include "splinefeed/s0_program/program_arc.hpp"
 #include "splinefeed/s0_program/program_step.hpp"
 #include "splinefeed/s0_program/surface_path.hpp"
+#include "splinefeed/s0_program/thread_cycle.hpp"
 #include "splinefeed/s0_program/word_use.hpp"
 
 #include <variant>
@@ -134,6 +135,7 @@ private:
     BlockStatus plan_line() noexcept;
     BlockStatus plan_probe() noexcept;
     BlockStatus plan_turning(bool follows) noexcept;
+    BlockStatus plan_thread() noexcept; // thread_words.cpp
     BlockStatus set_feed_of_turns(Decimal way) noexcept;
     BlockStatus plan_arc() noexcept;
     void plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
@@ -163,6 +165,7 @@ private:
     [[nodiscard]] bool end_program() noexcept;
     [[nodiscard]] bool next_motion(ProgramStep& out, ProgramEvent& event) noexcept;
     void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
+    [[nodiscard]] bool next_of_thread(ProgramStep& out) noexcept; // thread_words.cpp
     [[nodiscard]] bool next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept;
     void turn_spindle(CycleStep how, Decimal speed, ProgramStep& out, ProgramEvent& event) const noexcept;
     [[nodiscard]] bool next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept;
@@ -186,7 +189,7 @@ private:
     std::uint32_t item_line_ = 0;
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};
-    std::variant<CannedCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline
+    std::variant<CannedCycle, ThreadCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline
     Results results_{};
     std::uint32_t line_ = 0;
     std::uint8_t stage_ = 0;    // of the block, in the order of execution

@@ -327,6 +327,7 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         return true;
     }
     case PlanKind::tap: return next_of_tap(out, event);
+    case PlanKind::thread: return next_of_thread(out);
     case PlanKind::cycle: break;
     }
     return next_in_cycle(out, event);

@@ -67,7 +67,7 @@ struct CodeRows {
         Row{700, 723, motion, ProgramError::lathe_unsupported},
         Row{730, 730, motion, ProgramError::none, in_grbl},
         Row{740, 740, motion},
-        Row{760, 760, motion, ProgramError::thread_unsupported},
+        Row{760, 760, motion},
         Row{800, 800, motion, ProgramError::none, in_both},
         Row{810, 830, motion, ProgramError::none, in_grbl},
         Row{840, 840, motion},

@@ -13,7 +13,7 @@ bool is_feed_motion(std::int16_t motion) noexcept {
 }
 
 bool needs_one_speed(std::int16_t motion) noexcept {
-    return motion == 330 || motion == 331 || taps(motion) || (motion >= 50 && motion <= 52);
+    return motion == 330 || motion == 331 || motion == 760 || taps(motion) || (motion >= 50 && motion <= 52);
 }
 
 } // namespace
@@ -165,6 +165,9 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     }
     if (use.motion == 330 || use.motion == 331) {
         return plan_turning(before.motion == 330);
+    }
+    if (use.motion == 760) {
+        return plan_thread();
     }
     const bool rapid = use.motion == 0 && !(rules().rapid_has_feed && modal_.feed.raw > 0);
     if (is_feed_motion(use.motion) && !rapid) {

@@ -31,8 +31,8 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::checksum_wrong, "the checksum behind * is not that of the line"},
     {ProgramError::grbl_command_unsupported, "of grbl's $ commands there is $H only"},
     {ProgramError::polar_unsupported, "polar coordinates (@ and ^) are not supported; write X and Y"},
-    {ProgramError::thread_unsupported, "this thread cycle is not supported; cut each pass by G33 (linuxcnc), or the "
-                                       "thread by helical arcs, G2 or G3 with Z"},
+    {ProgramError::thread_unsupported, "this dialect's threads are not supported; cut them by G33 or G76 of the "
+                                       "dialect linuxcnc, or by helical arcs, G2 or G3 with Z"},
     {ProgramError::lathe_unsupported, "lathe cycles (G70 to G72) are not supported; program each pass as moves"},
     {ProgramError::boring_unsupported, "G87 and G88 are not supported; use G85, G86 or G89, or moves of their own"},
     {ProgramError::surface_speed_unsupported,
@@ -109,6 +109,9 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::tapping_direction, "G84 taps with a spindle that turns clockwise (M3), G74 counterclockwise (M4)"},
     {ProgramError::turn_way_missing,
      "G33 and G33.1 need K, the way of a turn, above 0, and no F; G33.1 takes I from 1 to 100"},
+    {ProgramError::thread_word_invalid,
+     "G76 needs Z, the pitch P above 0, I (not 0), J above 0 and K above J; H is a whole number from 0, Q 0 to 80, L 0 "
+     "to 3, and the tapers E are at most as long as the thread; there are at most 100000 passes"},
     {ProgramError::spindle_stands,
      "this feed is that of turns of the spindle: it needs a speed S above 0, and M3 or M4 before"},
     {ProgramError::surface_speed_missing,

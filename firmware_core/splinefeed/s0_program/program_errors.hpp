@@ -98,6 +98,7 @@ enum class ProgramError : std::uint8_t {
     cycle_spindle_stopped,
     tapping_direction,
     turn_way_missing,
+    thread_word_invalid,
     spindle_stands,
     surface_speed_missing,
     surface_speed_unsuited,

@@ -14,7 +14,7 @@ enum class MoveKind : std::uint8_t {
     feed,
     rapid,   ///< a straight line at the limits of the axes; feed_mm_s is 0
     probe,   ///< G38.n; call Interpreter::report_probe with the result
-    turning, ///< G33, G33.1, G74, G84: a feed that goes with the turns of the spindle; the feed is that of its S
+    turning, ///< G33, G33.1, G74, G76, G84: a feed that goes with the turns of the spindle; the feed is that of its S
     home, ///< Marlin's and grbl's homing: a rapid to the stored position in the simulation, a homing cycle on a machine
 };
 

@@ -30,6 +30,8 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
         used |= Block::bits("lp");
     } else if (motion == 330 || motion == 331) {
         used |= motion == 330 ? Block::bits("k") : Block::bits("ik");
+    } else if (motion == 760) {
+        used |= Block::bits("ehijklpqr");
     } else if (is_cycle(motion)) {
         used |= Block::bits("lr");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;

@@ -344,7 +344,7 @@ void GcodeMoves::require_possible(MoveKind kind) const {
     if (kind == MoveKind::turning) {
         throw InputError(
             file_, item_.line, std::uint64_t{0},
-            "tapping and threads (G33, G33.1, G74, G84): only the simulated machine does this so far, as no "
+            "tapping and threads (G33, G33.1, G74, G76, G84): only the simulated machine does this so far, as no "
             "target measures the turns of its spindle; take them out of the program");
     }
     if (kind == MoveKind::home) {

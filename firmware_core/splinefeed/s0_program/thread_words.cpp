@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// BlockInterpreter: G76.
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+namespace splinefeed {
+
+BlockStatus BlockInterpreter::plan_thread() noexcept {
+    const int x = letters_.index('x');
+    const int z = letters_.index('z');
+    if (x < 0 || z < 0) {
+        return block_.at(ProgramError::axis_missing, CodeGroup::motion);
+    }
+    if (block_.has_any(Block::bits("abcuvw"))) {
+        return block_.at(ProgramError::cycle_axis_word, CodeGroup::motion);
+    }
+    if (modal_.spindle == SpindleState::stopped) {
+        return block_.at(ProgramError::spindle_stands, CodeGroup::motion);
+    }
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    AxisPoint at = place_.program;
+    Decimal& at_x = at[static_cast<unsigned>(x)];
+    Decimal& at_z = at[static_cast<unsigned>(z)];
+    ThreadCycle& cycle = series_.emplace<ThreadCycle>();
+    if (const BlockStatus status = cycle.begin(block_, modal_, at_x, at_z, program[static_cast<unsigned>(z)]);
+        !status.ok()) {
+        return status;
+    }
+    for (const Decimal way : {cycle.taper_pitch(), cycle.pitch()}) {
+        if (const BlockStatus status = set_feed_of_turns(way); !status.ok()) {
+            return status;
+        }
+    }
+    at_x = cycle.deepest_x();
+    for (const Decimal end : {cycle.first_z(), cycle.last_z()}) {
+        at_z = end;
+        if (const BlockStatus status = check_reach(place_.machine, frame_.to_machine(at)); !status.ok()) {
+            return status;
+        }
+    }
+    plan_.manner.inverse_time = false;
+    plan_.kind = PlanKind::thread;
+    return move_to(program, machine);
+}
+
+bool BlockInterpreter::next_of_thread(ProgramStep& out) noexcept {
+    ThreadCycle* const cycle = std::get_if<ThreadCycle>(&series_);
+    ThreadCycle::Move move;
+    if (cycle == nullptr || !cycle->next(move)) {
+        plan_.move = MoveKind::rapid;
+        plan_.kind = PlanKind::none;
+        fill_move(out, plan_.to);
+        return true;
+    }
+    AxisPoint at = frame_.to_program(emitted_);
+    at[static_cast<unsigned>(letters_.index('x'))] = move.x;
+    at[static_cast<unsigned>(letters_.index('z'))] = move.z;
+    plan_.move = move.cuts ? MoveKind::turning : MoveKind::rapid;
+    if (move.cuts) {
+        static_cast<void>(modal_.feed_of_turns(move.way_of_turn, plan_.manner.feed)); // plan_thread() has tried it
+    }
+    fill_move(out, frame_.to_machine(at));
+    out.stops_before = move.waits;
+    return true;
+}
+
+} // namespace splinefeed
