@@ -81,7 +81,11 @@ TEST_CASE("wrong text is refused at its place", "[program][reader]") {
     CHECK(refused("G1 X1e3") == said(ProgramError::number_has_exponent, 4, 2));
     CHECK(refused(std::string("G1 X").append(300, '1')) == said(ProgramError::line_too_long, 257, 1));
     CHECK(refused(std::string("G1 X").append(200, '1')) == said(ProgramError::number_out_of_range, 4, 201));
-    CHECK(refused("G1 @3 ^45") == said(ProgramError::polar_unsupported, 4, 1));
+    ProgramSettings grbl = six_axes();
+    grbl.dialect = Dialect::grbl;
+    CHECK(refused("G1 @3 ^45", grbl) == said(ProgramError::polar_unsupported, 4, 2));
+    CHECK(refused("G1 @3 @45") == said(ProgramError::word_repeated, 7, 3));
+    CHECK(refused("G1 @ ^45") == said(ProgramError::number_invalid, 4, 1));
     CHECK(refused("o100 sub") == said(ProgramError::o_word, 1, 4));
     CHECK(refused("G1 X1 % 2") == said(ProgramError::character_invalid, 7, 1));
     CHECK(refused("% 2", six_axes(), "G0") == said(ProgramError::character_invalid, 3, 1));

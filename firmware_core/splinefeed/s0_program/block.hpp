@@ -14,7 +14,7 @@ namespace splinefeed {
 /// What a comment asks for.
 enum class CommentKind : std::uint8_t { none, message, print, debug };
 
-/// Words by letter, G and M words by group. Letters are 'a' to 'z'.
+/// Words by letter, G and M words by group. Letters are 'a' to 'z', and '@' and '^'.
 class Block {
 public:
     static constexpr std::int16_t no_code = -1;
@@ -102,7 +102,7 @@ public:
 
 private:
     [[nodiscard]] static constexpr unsigned index(char letter) noexcept {
-        return static_cast<unsigned>(letter - 'a') % 26U;
+        return letter == '@' ? 26U : letter == '^' ? 27U : static_cast<unsigned>(letter - 'a') % 26U;
     }
 
     std::uint32_t present_ = 0;
@@ -110,8 +110,8 @@ private:
     std::uint32_t whole_ = 0;
     bool has_left_out_ = false;
     CommentKind comment_ = CommentKind::none;
-    std::array<Decimal, 26> values_{};
-    std::array<std::uint8_t, 26> columns_{}; // from 0
+    std::array<Decimal, 28> values_{};
+    std::array<std::uint8_t, 28> columns_{}; // from 0
     std::array<std::int16_t, code_groups> codes_{};
     std::array<std::uint8_t, code_groups> code_columns_{};
     TextPart text_{};

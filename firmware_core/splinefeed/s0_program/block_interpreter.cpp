@@ -3,6 +3,7 @@
 
 #include "splinefeed/s0_program/adapt_words.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/polar_words.hpp"
 
 namespace splinefeed {
 
@@ -17,7 +18,8 @@ std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
         return 0;
     }
     const char first = text[column - 1U];
-    const bool is_letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+    const bool is_letter =
+        (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '@' || first == '^';
     std::size_t end = column;
     while (is_letter && end < text.size() && is_part(text[end])) {
         ++end;
@@ -138,7 +140,9 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         stage_ = 0;
     } else if (kind == LineKind::block) {
         const BlockStatus adapted = adapt_words(block_, modal_, letters_, settings_);
-        status = !status.ok() ? status : !adapted.ok() ? adapted : execute();
+        const SpacePoint place = space(place_.program);
+        const BlockStatus polar = adapt_polar(block_, modal_, letters_, {place[0], place[1]});
+        status = !status.ok() ? status : !adapted.ok() ? adapted : !polar.ok() ? polar : execute();
     }
     if (!status.ok()) {
         status.length = word_length(text, status.column);

@@ -137,10 +137,11 @@ ProgramStatus BlockReader::read_part(TextCursor& text, const BlockInterpreter& c
         return evaluator_ != nullptr ? evaluator_->assignment(text, control)
                                      : ProgramStatus(ProgramError::expression_unsupported);
     }
-    if (is_letter(c)) {
+    const bool is_polar = c == '@' || c == '^';
+    if (is_letter(c) || (is_polar && rules_->polar_words)) {
         return read_word(text, control, out);
     }
-    return c == '@' || c == '^' ? ProgramError::polar_unsupported : ProgramError::character_invalid;
+    return is_polar ? ProgramError::polar_unsupported : ProgramError::character_invalid;
 }
 
 // Behind a word that is wrong: whoever looks for all errors wants to know what the others do.

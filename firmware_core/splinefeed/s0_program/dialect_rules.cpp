@@ -18,6 +18,7 @@ struct DialectTable {
     static constexpr ArcTolerance arc_printer{{}, half_mm, false};
 
     static constexpr DialectRules linuxcnc{
+        .polar_words = true,
         .first_motion = 800,
         .arc = arc_linuxcnc,
         .arc_in_inches = arc_linuxcnc_inches,

@@ -26,6 +26,7 @@ struct DialectRules {
     bool one_command = false;   ///< an M word behind the first G or M word is not read; words of a printer's M are free
     bool skips_unknown = false; ///< unknown M words are left out with their line, as the controller does
     bool dollar_lines = false;  ///< $ begins a command of the controller
+    bool polar_words = false;   ///< @ and ^
     bool uvw_steps = false;     ///< U V W are steps along X Y Z, where the machine has no such axes
     // Words.
     bool extruder = false;              ///< E is an axis

@@ -30,7 +30,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
      "O words, M70 to M73, M98 and M99 need the file; they are read by the host, in a line of their own"},
     {ProgramError::checksum_wrong, "the checksum behind * is not that of the line"},
     {ProgramError::grbl_command_unsupported, "of grbl's $ commands there is $H only"},
-    {ProgramError::polar_unsupported, "polar coordinates (@ and ^) are not supported; write X and Y"},
+    {ProgramError::polar_unsupported, "polar coordinates (@ and ^) are of the dialect linuxcnc; write X and Y"},
     {ProgramError::thread_unsupported, "this dialect's threads are not supported; cut them by G33 or G76 of the "
                                        "dialect linuxcnc, or by helical arcs, G2 or G3 with Z"},
     {ProgramError::lathe_unsupported, "lathe cycles (G70 to G72) are not supported; program each pass as moves"},
@@ -76,6 +76,9 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::integer_needed, "a whole number is needed here"},
     {ProgramError::count_out_of_range, "P is needed: a whole number from 0 to 63"},
     {ProgramError::dwell_invalid, "a dwell needs P, its time, and P is at least 0"},
+    {ProgramError::polar_unsuited, "polar coordinates (@ and ^) are of motion in G17, without X, Y, G53 and repeats by "
+                                   "L; from X0 Y0 they need ^, and "
+                                   "under G91 there is no direction there"},
     {ProgramError::feed_missing, "a feed move needs a feed rate F above 0, in this block or before it"},
     {ProgramError::inverse_feed_missing, "under G93 each feed move needs an F of its own, in 1/min"},
     {ProgramError::inverse_feed_cycle, "canned cycles need G94; under G93 no hole has a feed"},

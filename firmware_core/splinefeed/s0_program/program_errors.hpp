@@ -69,6 +69,7 @@ enum class ProgramError : std::uint8_t {
     integer_needed,
     count_out_of_range,
     dwell_invalid,
+    polar_unsuited,
     feed_missing,
     inverse_feed_missing,
     inverse_feed_cycle,
