@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Whether the moves of programs are those of LinuxCNC's own interpreter, in order: random programs, contours with cutter compensation, and
+"""Whether the moves of programs are those of LinuxCNC's own interpreter, in order: random programs, contours with cutter compensation, threads, and
 the programs of examples/.
 
     linuxcnc_elements.py build/release/bin/splinefeed [--programs 300] [--seed N]
@@ -124,6 +124,24 @@ def random_contour(numbers):
     return "\n".join([*rows, "G40", "G1 X90 Y90", "M2", ""])
 
 
+def random_threads(numbers):
+    """G76 with all its words, outside and inside, and moves by polar coordinates."""
+    rows = ["G21 G90 G18" + numbers.choice(("", " G7")), f"S{numbers.randint(50, 2000)} M3",
+            f"G0 X{numbers.uniform(5, 30):.3f} Z{numbers.uniform(1, 8):.3f}"]
+    for way in (-1, 1, -1):
+        first = numbers.uniform(0.05, 0.4)
+        rows.append(f"G76 P{numbers.uniform(0.2, 3):.3f} Z{way * numbers.uniform(20, 40):.3f} "
+                    f"I{numbers.choice((-1, 1)) * numbers.uniform(0.2, 3):.3f} J{first:.3f} K{first * numbers.uniform(1.1, 5):.3f}"
+                    + numbers.choice(("", f" R{numbers.uniform(0.5, 3):.2f}")) + numbers.choice(("", f" Q{numbers.uniform(0, 45):.2f}"))
+                    + numbers.choice(("", f" H{numbers.randint(0, 3)}"))
+                    + numbers.choice(("", f" E{numbers.uniform(0.1, 5):.3f} L{numbers.randint(0, 3)}")))
+    rows.append(f"G17\nG0 @{numbers.uniform(1, 20):.3f} ^{numbers.uniform(-200, 400):.3f}")
+    for _ in range(6):
+        both = (f"@{numbers.uniform(1, 9):.3f}", f"^{numbers.uniform(-90, 90):.3f}")
+        rows.append(f"G1 F600 {numbers.choice(('G90', 'G91'))} {numbers.choice((*both, ' '.join(both)))}")
+    return "\n".join([*rows, "M2", ""])
+
+
 def problem(tool, program, folder):
     there = theirs(program, folder)
     here, said = ours(tool, program, folder)
@@ -155,7 +173,7 @@ def main():
                 print(f"{example.name}: {said}")
         for i in range(options.programs):
             program = folder / "random.ngc"
-            make = random_contour if i % 3 == 2 else random_program
+            make = {2: random_contour, 3: random_threads}.get(i % 4, random_program)
             program.write_text(make(random.Random(options.seed + i)), encoding="ascii")
             (folder / "rs274ngc.var").unlink(missing_ok=True)
             said = problem(options.tool, program, folder)
