@@ -37,6 +37,7 @@ const char* action_name(EventKind kind) noexcept {
     case EventKind::analog_output_with_motion: return "analog_output_with_motion";
     case EventKind::analog_output: return "analog_output";
     case EventKind::surface_speed: return "surface_speed";
+    case EventKind::spindle_orient: return "spindle_orient";
     case EventKind::offsets_changed: return "offsets_changed";
     }
     return "unknown";

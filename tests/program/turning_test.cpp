@@ -65,6 +65,29 @@ TEST_CASE("G33.1 goes in, and out again with a spindle that turns back", "[progr
     CHECK(run.text("G0 X11") == "rapid 11 0 5");
 }
 
+TEST_CASE("M19 stops the spindle at an angle", "[program][turning]") {
+    GcodeRun<double> run;
+    run.run("S300 M3");
+    const std::string event = "event " + std::to_string(static_cast<int>(EventKind::spindle_orient)) + " stop ";
+    CHECK(run.text("M19 R90.5 P2 Q3") == event + "2 90.5");
+    CHECK(run.push("G33 Z-5 K1").error == ProgramError::spindle_stands);
+    CHECK(run.text("M19") == event + "0 0");
+}
+
+TEST_CASE("G33 of fanuc has its lead in F, which stays no feed", "[program][turning]") {
+    ProgramSettings settings = six_axes();
+    settings.dialect = Dialect::fanuc;
+    GcodeRun<double> run(settings);
+    run.run("F100 S300 M3 G0 X10");
+    CHECK(run.text("G33 Z-20. F1.5") == "turning 10 0 -20");
+    CHECK(run.items()[0].element.feed_mm_s == 7.5);
+    CHECK(run.push("Z-30.").error == ProgramError::turn_way_missing);
+    run.run("G1 X11");
+    CHECK(run.items()[0].element.feed_mm_s == Approx(100.0 / 60));
+    CHECK(run.push("G32 Z-20. F1.5").error == ProgramError::thread_unsupported);
+    CHECK(run.push("G33.1 Z-20. K1.5").error == ProgramError::thread_unsupported);
+}
+
 TEST_CASE("G7: X is a diameter, from its own block on", "[program][turning]") {
     GcodeRun<double> run;
     CHECK(run.text("G7 G0 X10\nX20 Y3") == "rapid 5 0 0\nrapid 10 3 0");

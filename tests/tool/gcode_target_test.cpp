@@ -90,8 +90,9 @@ TEST_CASE("Tapping and threads are of the simulated machine, feeds for each turn
     CHECK(seconds(tool, "G95 S600 F0.1\nG1 X10\nM2\n") == Approx(seconds(tool, "F60 G1 X10\nM2\n")).margin(1e-6));
 }
 
-TEST_CASE("Analog outputs are of the simulated machine") {
+TEST_CASE("Analog outputs and the angle of the spindle are of the simulated machine") {
     const Tool tool;
+    CHECK(error_of(tool, "M19 R90\nM2\n").rfind("part.ngc:1: spindle_orient: only the simulated machine", 0) == 0);
     CHECK(error_of(tool, "G1 X10 F3000\nM67 E1 Q2\nX20\nM2\n")
               .rfind("part.ngc:2: analog_output_with_motion: only the simulated machine does this so far", 0) == 0);
 }

@@ -82,6 +82,9 @@ BlockStatus adapt_words(Block& block, const ModalState& modal, const AxisLetters
     if (cycle && rules.dwell == DwellUnit::millisecond && block.has('p')) {
         block.change('p', {block.value('p').raw / 1000});
     }
+    if (rules.lead_is_feed && motion == 330 && block.has('f') && !block.has('k')) {
+        block.rename('f', 'k', block.value('f'));
+    }
     if (!rules.uvw_steps) {
         return {};
     }

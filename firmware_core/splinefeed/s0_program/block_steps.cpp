@@ -147,8 +147,10 @@ void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
         const std::int16_t code = block_.code(CodeGroup::spindle);
         event.kind = code == 3   ? EventKind::spindle_clockwise
                      : code == 4 ? EventKind::spindle_counterclockwise
-                                 : EventKind::spindle_stop;
-        event.value = code == 5 ? Decimal{} : modal_.speed;
+                     : code == 5 ? EventKind::spindle_stop
+                                 : EventKind::spindle_orient;
+        event.value = code == 5 ? Decimal{} : code == 19 ? block_.value('r') : modal_.speed;
+        event.number = code == 19 ? integer_of(block_, 'p') : 0;
         break;
     }
     case coolant: {

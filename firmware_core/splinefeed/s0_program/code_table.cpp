@@ -100,7 +100,8 @@ struct CodeRows {
         Row{150, 150, without_effect, ProgramError::none, in_fanuc},
         Row{200, 200, units, ProgramError::not_in_dialect, in_klipper},
         Row{290, 290, non_modal, ProgramError::bed_levelling_unsupported, in_printers},
-        Row{330, 331, motion, ProgramError::thread_unsupported, in_fanuc}, // its lead is F
+        Row{320, 320, motion, ProgramError::thread_unsupported, in_fanuc}, // of lathes, where X is a diameter
+        Row{331, 331, motion, ProgramError::thread_unsupported, in_fanuc},
         Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
@@ -129,7 +130,7 @@ struct CodeRows {
         Row{3, 5, spindle, ProgramError::none, in_both},
         Row{6, 6, tool_change, ProgramError::none, in_both},
         Row{7, 9, coolant, ProgramError::none, in_both},
-        Row{19, 19, spindle, ProgramError::spindle_orientation_unsupported},
+        Row{19, 19, spindle},
         Row{30, 30, stop, ProgramError::none, in_grbl},
         Row{48, 53, override_mode, ProgramError::none, in_grbl},
         Row{60, 60, stop, ProgramError::none, in_grbl},

@@ -29,7 +29,7 @@ enum class CodeGroup : std::uint8_t {
     stop,          ///< M0 M1 M2 M30 M60 M98 M99
     input_output,  ///< M62 to M68
     tool_change,   ///< M6 M61
-    spindle,       ///< M3 M4 M5 M70 to M73
+    spindle,       ///< M3 M4 M5 M19 M70 to M73
     coolant,       ///< M7 M8 M9
     override_mode, ///< M48 to M53
     printer,       ///< M82 M83 M104 ... of Dialect::marlin

@@ -73,6 +73,7 @@ struct DialectTable {
     // Its controls state no tolerance in public; LinuxCNC's is that of the same decimals.
     static constexpr DialectRules fanuc{
         .uvw_steps = true,
+        .lead_is_feed = true,
         .motion_beside_offsets = true,
         .dwell_words = true,
         .dwell = DwellUnit::millisecond,

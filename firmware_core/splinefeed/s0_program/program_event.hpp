@@ -41,6 +41,7 @@ enum class EventKind : std::uint8_t {
     offsets_changed,           ///< G10, G28.1, G55, G92, M2 ...: Interpreter::offsets() is to be stored
     analog_output_with_motion, ///< M67: output `number` (E) becomes `value` (Q) with the start of the next move
     analog_output,             ///< M68: the same at once
+    spindle_orient,            ///< M19: the spindle stops at `value` degrees, by way `number` (P)
     surface_speed,             ///< G96: `value` is the speed that the spindle follows to [1/min]; nobody waits for it
 };
 

@@ -43,6 +43,7 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
     used |= block.code(CodeGroup::cutter_radius) > 400 ? Block::bits("dl") : 0;
+    used |= block.code(CodeGroup::spindle) == 19 ? Block::bits("pqr") : 0;
     used |= block.code(CodeGroup::spindle_mode) == 960 ? Block::bits("d") : 0;
     used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
     used |= block.code(CodeGroup::tool_change) == 61 ? Block::bits("q") : 0;
@@ -84,6 +85,17 @@ BlockStatus check_input(const Block& block) noexcept {
     return require_count(block, analog ? 'e' : 'p', 63, ProgramError::input_word_invalid);
 }
 
+BlockStatus check_orientation(const Block& block) noexcept {
+    constexpr Decimal full_turn{Decimal::full_turn};
+    std::int32_t way = 0;
+    if (block.value('r').raw < 0 || block.value('r') > full_turn ||
+        (block.has('p') && !to_integer(block.value('p'), way)) || way < 0 || way > 2 ||
+        (block.has('q') && block.value('q').raw <= 0)) {
+        return block.at(ProgramError::orient_word_invalid, CodeGroup::spindle);
+    }
+    return {};
+}
+
 // Words that a code cannot do without.
 BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept {
     constexpr std::int32_t most_outputs = 63;
@@ -109,6 +121,9 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
         if (!status.ok()) {
             return status.column > 0 ? status : block.at(status.error, CodeGroup::input_output);
         }
+    }
+    if (block.code(CodeGroup::spindle) == 19) {
+        return check_orientation(block);
     }
     if (block.code(CodeGroup::tool_change) == 61) {
         return require_count(block, 'q', most_tools, ProgramError::tool_unknown);

@@ -273,7 +273,7 @@ void GcodeMoves::take_event(SourceStep& out) {
     note_coolant(event.kind);
     if (ProgramSpindle::is_of(event.kind)) {
         take_spindle(out, event.kind);
-    } else if (event.kind == EventKind::tool_change) {
+    } else if (event.kind == EventKind::tool_change || event.kind == EventKind::spindle_orient) {
         take_spindle(out, EventKind::spindle_stop); // as in LinuxCNC
     }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
