@@ -67,11 +67,9 @@ TEMPLATE_TEST_CASE("basis functions: a partition of unity, as the recursion says
                 for (std::size_t j = 0; j <= k; ++j) {
                     const Real n = recursive_basis(u, span - k + j, degree, static_cast<Real>(t), u.back());
                     REQUIRE(!(basis.value[j] < S{}));
-                    REQUIRE(static_cast<double>(std::abs(weight(basis.value[j]) - n)) <=
-                            static_cast<double>(4.0L * degree * eps<S>));
+                    REQUIRE(std::abs(weight(basis.value[j]) - n) <= 4.0L * degree * eps<S>);
                     const Real slope = recursive_slope(u, span - k + j, degree, static_cast<Real>(t), u.back()) * h;
-                    REQUIRE(static_cast<double>(std::abs(weight(basis.first[j]) - slope)) <=
-                            static_cast<double>(8.0L * degree * degree * eps<S>));
+                    REQUIRE(std::abs(weight(basis.first[j]) - slope) <= 8.0L * degree * degree * eps<S>);
                     sum += basis.value[j];
                     slopes += weight(basis.first[j]);
                     bends += weight(basis.second[j]);
@@ -79,12 +77,10 @@ TEMPLATE_TEST_CASE("basis functions: a partition of unity, as the recursion says
                 if constexpr (std::same_as<S, Fixed>) {
                     REQUIRE((sum == weight_one<S>()));
                 } else {
-                    REQUIRE(static_cast<double>(std::abs(weight(sum) - 1.0L)) <=
-                            static_cast<double>(4.0L * degree * eps<S>));
+                    REQUIRE(std::abs(weight(sum) - 1.0L) <= 4.0L * degree * eps<S>);
                 }
-                REQUIRE(static_cast<double>(std::abs(slopes)) <= static_cast<double>(8.0L * degree * degree * eps<S>));
-                REQUIRE(static_cast<double>(std::abs(bends)) <=
-                        static_cast<double>(16.0L * degree * degree * degree * eps<S>));
+                REQUIRE(std::abs(slopes) <= 8.0L * degree * degree * eps<S>);
+                REQUIRE(std::abs(bends) <= 16.0L * degree * degree * degree * eps<S>);
             }
         }
     }
@@ -137,13 +133,4 @@ TEMPLATE_TEST_CASE("second derivatives are those of the polynomial", "[splines]"
             REQUIRE(to_double(jet.second[0]) == Approx(2.0 * h * h).margin(1e-7));
         }
     }
-}
-
-TEST_CASE("degree 1 has no second derivative", "[splines]") {
-    const std::vector<double> knots{0, 0, 1, 2, 2};
-    const BasisDerivatives<double> basis = basis_derivatives<double>(knots, 1, 2, 1.25);
-    REQUIRE(basis.first[0] == -1.0);
-    REQUIRE(basis.first[1] == 1.0);
-    REQUIRE(basis.second[0] == 0.0);
-    REQUIRE(basis.second[1] == 0.0);
 }

@@ -82,48 +82,6 @@ TEMPLATE_TEST_CASE("catmull-rom points: the article as corrected", "[splines][ca
     REQUIRE(static_cast<double>(worst) > 0.05); // it is no idle bound
 }
 
-TEST_CASE("catmull-rom points: classes at joints, measured", "[splines][catmull_rom_points]") {
-    RandomPath random(path_seed + 61);
-    for (int round = 0; round < 60; ++round) {
-        const bool closed = round % 2 == 1;
-        // Any four closed points join with G2: there r'' jumps along r'.
-        const auto points = random_points<double>(random, 3, 5 + random.below(6), true);
-        const auto made = make<double>(points, closed, 0.75);
-        const std::size_t n = made.pieces.size();
-        bool jumps = false;
-        for (std::size_t i = 0; i + (closed ? 0U : 1U) < n; ++i) {
-            const auto& a = made.pieces[i];
-            const auto& b = made.pieces[(i + 1) % n];
-            REQUIRE(a.point(3) == b.point(0));
-            const Vec in = exact_point(a.point(3)) - exact_point(a.point(2));
-            const Vec out = exact_point(b.point(1)) - exact_point(b.point(0));
-            REQUIRE(static_cast<double>(distance_of(out, in)) <= 1e-13 * 32.0);
-            const auto bend = [](const BezierPiece<double>& piece, int p0, int p1, int p2) {
-                return curvature(exact_point(piece.point(p0)), exact_point(piece.point(p1)),
-                                 exact_point(piece.point(p2)));
-            };
-            jumps = jumps || distance_of(bend(a, 3, 2, 1), bend(b, 0, 1, 2)) > 1e-6L;
-        }
-        REQUIRE(jumps); // C1 and no more
-    }
-}
-
-// P1P2 leaves its chord by -m t (1 - t) ((1 - t) n0 + t n3), n0 and n3 the offsets of P0 and P3: outward of a convex
-// polygon only.
-TEST_CASE("catmull-rom points: on which side of its chord a segment is", "[splines][catmull_rom_points]") {
-    const double m = 0.5;
-    const auto convex =
-        make<double>({at<double>(0, -2), at<double>(1, 0), at<double>(5, 0), at<double>(6, -1)}, false, m);
-    const auto s_shape =
-        make<double>({at<double>(0, -2), at<double>(1, 0), at<double>(5, 0), at<double>(6, 2)}, false, m);
-    for (const auto& [curve, n0, n3] : {std::tuple{&convex, -2.0, -1.0}, std::tuple{&s_shape, -2.0, 2.0}}) {
-        // the offset's Bezier points: 0, -m n0 / 3, -m n3 / 3, 0
-        const auto& y = curve->pieces[1].control[1];
-        REQUIRE(y[1] == Approx(-m * n0 / 3.0));
-        REQUIRE(y[2] == Approx(-m * n3 / 3.0));
-    }
-}
-
 TEMPLATE_TEST_CASE("catmull-rom points: degenerate inputs", "[splines][catmull_rom_points]", double, float, Fixed) {
     using S = TestType;
     const S half = literal<S>(0.5);

@@ -207,17 +207,6 @@ TEST_CASE("ferguson: dominance with lambda, as corrected", "[splines][ferguson]"
     REQUIRE_FALSE(make<double>(points, all(4, -41.99, 1, 2.0)).report.diagonally_dominant);
 }
 
-TEST_CASE("ferguson: a point-symmetric S with delta -1 has a zero tangent, and says so", "[splines][ferguson]") {
-    const std::vector<Point<double>> s{{-4, -1}, {-2, 1}, {0, 0}, {2, -1}, {4, 1}};
-    auto joints = all(3, 0.0);
-    joints[1] = {1.0, 6.0, -1};
-    const auto made = make<double>(s, joints, false, {1, 3}, {1, 3});
-    REQUIRE(made.error == Error::none);
-    REQUIRE(made.report.vanishing == 1);
-    REQUIRE(made.report.first_vanishing == 2);
-    REQUIRE(make<double>(s, all(3, 0.0), false, {1, 3}, {1, 3}).report.vanishing == 0);
-}
-
 TEST_CASE("ferguson: classes as the conditions give them", "[splines][ferguson]") {
     REQUIRE(ferguson_class<double>({1.0, 0.0, 1}, false) == FergusonClass::c2);
     REQUIRE(ferguson_class<double>({1.0, 2.0, 1}, false) == FergusonClass::c1_g2);

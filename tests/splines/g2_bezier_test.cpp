@@ -110,7 +110,7 @@ TEMPLATE_TEST_CASE("g2 bezier: the default is the cubic spline by chord length",
                         error[k] = exact(solved.pieces[i].control[k][p]) - exact(solved.pieces[i].control[k][0]) -
                                    cubics[i][p][k];
                     }
-                    REQUIRE(static_cast<double>(size(error)) <= static_cast<double>(e));
+                    REQUIRE(size(error) <= e);
                 }
             }
         }
@@ -219,29 +219,6 @@ TEMPLATE_TEST_CASE("g2 bezier: a beta1 other than 1 at thousands of joints", "[s
         const double expected = 3.0 * (1.0 + r * r) / (beta1 + 2.0 + 2.0 * r + r * r);
         CHECK(to_double(solved.tangents[2 * 2500]) == Approx(expected).epsilon(1e-4));
     }
-}
-
-TEMPLATE_TEST_CASE("g2 bezier: tension pulls the curve to its chords", "[splines][g2bezier]", double, Fixed) {
-    using S = TestType;
-    RandomPath random(path_seed + 2);
-    const std::vector<S> points = walk<S>(random, 3, 12);
-    double before = 1e9;
-    for (const int beta2 : {0, 10, 100, 1000, 100000}) {
-        G2BezierJoint<S> joint;
-        joint.beta2 = from_integer<S>(beta2);
-        G2BezierInput<S> input;
-        input.coordinates = points;
-        input.joints = {&joint, 1};
-        const Solved<S> solved = solve(input);
-        REQUIRE(solved.status.ok());
-        double largest = 0.0;
-        for (std::size_t i = 3; i + 3 < solved.tangents.size(); ++i) {
-            largest = std::max(largest, std::fabs(to_double(solved.tangents[i])));
-        }
-        CHECK(largest < before);
-        before = largest;
-    }
-    CHECK(before < 0.05);
 }
 
 TEMPLATE_TEST_CASE("g2 bezier: a closed curve of one beta1 can be singular, and says so", "[splines][g2bezier]", double,

@@ -77,22 +77,6 @@ Point<S> bezier_at(const BezierPiece<S>& piece, S u) {
     return c[0];
 }
 
-/// Forward difference number `order` at an end: over a span of 1 the derivative by t without its factor k! / (k -
-/// order)!.
-Real difference(const BezierPiece<double>& piece, int order, bool at_end) {
-    std::vector<Real> row;
-    for (int i = 0; i <= piece.degree; ++i) {
-        row.push_back(static_cast<Real>(piece.control[0][static_cast<unsigned>(i)]));
-    }
-    for (int s = 0; s < order; ++s) {
-        for (std::size_t i = 0; i + 1U < row.size(); ++i) {
-            row[i] = row[i + 1U] - row[i];
-        }
-        row.pop_back();
-    }
-    return at_end ? row.back() : row.front();
-}
-
 } // namespace
 
 TEMPLATE_TEST_CASE("Bezier pieces are the curve, bit by bit one at their joints", "[splines]", double, float, Fixed) {
@@ -146,52 +130,6 @@ TEMPLATE_TEST_CASE("a curve may jump where a knot repeats degree + 1 times", "[s
     REQUIRE(bezier_pieces<S>(knots, 1, controls, 1, false, pieces, breaks).ok());
     REQUIRE(to_double(pieces[0].point(1)[0]) == 1.0);
     REQUIRE(to_double(pieces[1].point(0)[0]) == 5.0);
-}
-
-TEST_CASE("C^(k-m) and no more at a knot of multiplicity m, k = 1 to 9", "[splines]") {
-    std::mt19937_64 random(78);
-    for (int degree = 1; degree <= 9; ++degree) {
-        for (const bool closed : {false, true}) {
-            for (int multiplicity = 1; multiplicity <= (closed ? 1 : std::min(degree, 3)); ++multiplicity) {
-                Spline<double> spline = random_spline<double>(random, degree, closed, 1);
-                if (!closed) { // spans of 1, so that differences compare
-                    const auto k = static_cast<std::size_t>(degree);
-                    spline.knots.assign(k + 1U, 0.0);
-                    for (int i = 1; i < 6; ++i) {
-                        spline.knots.insert(spline.knots.end(), static_cast<std::size_t>(multiplicity), i);
-                    }
-                    spline.knots.insert(spline.knots.end(), k + 1U, 6.0);
-                    const Spline<double> other = random_spline<double>(random, 9, false, 9);
-                    spline.controls.clear();
-                    for (std::size_t i = 0; i + k + 1U < spline.knots.size(); ++i) {
-                        spline.controls.push_back(other.controls[i % other.controls.size()]);
-                    }
-                } else {
-                    for (std::size_t i = 0; i < spline.knots.size(); ++i) {
-                        spline.knots[i] = static_cast<double>(i);
-                    }
-                }
-                const std::size_t count = bezier_piece_count<double>(spline.knots, degree);
-                std::vector<BezierPiece<double>> pieces(count);
-                std::vector<double> breaks(count + 1U);
-                REQUIRE(bezier_pieces<double>(spline.knots, degree, spline.controls, 2, closed, pieces, breaks).ok());
-                for (std::size_t i = 0; i + (closed ? 0U : 1U) < count; ++i) {
-                    const BezierPiece<double>& next = pieces[(i + 1U) % count];
-                    for (int order = 0; order <= degree - multiplicity + 1; ++order) {
-                        const Real jump =
-                            std::abs(difference(pieces[i], order, true) - difference(next, order, false)) /
-                            (0x1p20L * std::pow(2.0L, order));
-                        CAPTURE(degree, closed, multiplicity, i, order, static_cast<double>(jump));
-                        if (order <= degree - multiplicity) {
-                            REQUIRE(static_cast<double>(jump) <= 1e-14);
-                        } else {
-                            REQUIRE(static_cast<double>(jump) >= 1e-10);
-                        }
-                    }
-                }
-            }
-        }
-    }
 }
 
 TEMPLATE_TEST_CASE("inserting knots leaves the curve as it is", "[splines]", double, float, Fixed) {
