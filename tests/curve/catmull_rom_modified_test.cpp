@@ -87,25 +87,3 @@ TEMPLATE_TEST_CASE("catmull-rom modified: duplicates are merged before", "[curve
         REQUIRE(same_shape(once[i], twice[i]));
     }
 }
-
-// G1 in the segment's parameter, C1 by chord length: the unit tangents agree, the legs are as the chords. The slopes at
-// a joint are the same numbers on both sides; a Bezier point is off by a few roundings of its segment's size.
-TEMPLATE_TEST_CASE("catmull-rom modified: joints, measured", "[curve][catmull_rom_modified]", double, float, Fixed) {
-    using S = TestType;
-    RandomPath random(path_seed + 53);
-    for (const Shape shape : {Shape::even, Shape::uneven, Shape::helix}) {
-        const Path path = random.make(shape, 3, 60);
-        CatmullRomModified<S> curve({3, Parameterization::chordal, literal<S>(0.5), 65536}, literal<S>(1));
-        const auto segments = run_curve<S>(curve, feeds_of<S>(path));
-        for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
-            const Joint joint = joint_of(segments[i], segments[i + 1]);
-            const Real longest = std::max(size(bezier(segments[i], 3)), size(bezier(segments[i + 1], 3)));
-            CAPTURE(static_cast<int>(shape), i);
-            REQUIRE(static_cast<double>(joint.gap) <= 0x1p-39 + static_cast<double>(rounding<S>(longest)));
-            if (!segments[i].stop_at_end) {
-                REQUIRE(static_cast<double>(joint.direction) <=
-                        static_cast<double>(16.0L * rounding<S>(longest) / joint.least_leg));
-            }
-        }
-    }
-}

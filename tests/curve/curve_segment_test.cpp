@@ -51,28 +51,3 @@ TEMPLATE_TEST_CASE("segment: the largest offset lies in [2^15, 2^16)", "[curve][
         }
     }
 }
-
-TEMPLATE_TEST_CASE("segment: all offsets zero keep the chord unit", "[curve][segment]", double, float, Fixed) {
-    CurveSegment<TestType> segment;
-    segment.axes = 2;
-    segment.degree = 3;
-    segment.assign({});
-    REQUIRE(segment.unit_log2 == chord_unit_log2);
-    REQUIRE(segment.control[1][3] == TestType{});
-}
-
-TEMPLATE_TEST_CASE("segment: control_mm adds the origin", "[curve][segment]", double, float, Fixed) {
-    CurveSegment<TestType> segment;
-    segment.axes = 2;
-    segment.degree = 1;
-    segment.origin[0] = position_from_mm(-1000.5);
-    segment.origin[1] = position_from_mm(2.25);
-    PerAxis<PerDegree<TestType>> offsets{};
-    offsets[0][1] = from_double<TestType>(4096.0 * 3.0);
-    offsets[1][1] = from_double<TestType>(4096.0 * -0.125);
-    segment.assign(offsets);
-    REQUIRE(segment.control_mm(0, 0) == -1000.5);
-    REQUIRE(segment.control_mm(0, 1) == -997.5);
-    REQUIRE(segment.control_mm(1, 0) == 2.25);
-    REQUIRE(segment.control_mm(1, 1) == 2.125);
-}

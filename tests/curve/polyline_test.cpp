@@ -54,31 +54,3 @@ TEMPLATE_TEST_CASE("polyline: only forced corners are flagged, feeds belong to t
         REQUIRE(segments[i].max_feed_mm_s == from_integer<S>(15 * (static_cast<int>(i) + 1)));
     }
 }
-
-TEMPLATE_TEST_CASE("polyline: one waypoint of look-ahead, lead-in and lead-out not travelled", "[curve][polyline]",
-                   double, float, Fixed) {
-    using S = TestType;
-    const Path path = path_of(1, {0, 1, 2, 3, 4, 5, 6, 7});
-    auto feeds = feeds_of<S>(path);
-    feeds[0].role = feeds[1].role = Role::lead_in;
-    feeds[6].role = feeds[7].role = Role::lead_out;
-    Polyline<S> curve(CurveOptions<S>{1});
-    CurveSegment<S> segment;
-    std::vector<std::uint32_t> after_push[8];
-    for (std::size_t i = 0; i < 8; ++i) {
-        REQUIRE(curve.push(feeds[i].point, feeds[i].role).ok());
-        while (curve.next(segment) == Pull::item) {
-            after_push[i].push_back(segment.waypoint);
-        }
-        REQUIRE(curve.next(segment) == Pull::starved);
-    }
-    for (std::size_t i = 0; i < 8; ++i) {
-        if (i >= 4 && i <= 6) {
-            REQUIRE(after_push[i] == std::vector<std::uint32_t>{static_cast<std::uint32_t>(i) - 1U});
-        } else {
-            REQUIRE(after_push[i].empty());
-        }
-    }
-    REQUIRE(curve.finish().ok());
-    REQUIRE(curve.next(segment) == Pull::finished);
-}

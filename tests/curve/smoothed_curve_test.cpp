@@ -126,19 +126,17 @@ TEMPLATE_TEST_CASE("smoothed curve: joints are G2, measured", "[curve][smoothed_
                 REQUIRE(out[i].waypoint == source[i].waypoint);
                 REQUIRE(out[i].degree == 5);
                 const Real length = size(bezier(source[i], 3));
-                REQUIRE(static_cast<double>(distance_of(bezier(out[i], 5), bezier(source[i], 3))) <=
-                        static_cast<double>(2.0L * rounding<S>(length)));
+                REQUIRE(distance_of(bezier(out[i], 5), bezier(source[i], 3)) <= 2.0L * rounding<S>(length));
                 if (i + 1 == out.size() || out[i].stop_at_end) {
                     continue;
                 }
                 before = std::max(before, jump_of(source[i], source[i + 1]));
                 const Real jump = jump_of(out[i], out[i + 1]);
                 ++joints;
-                REQUIRE(static_cast<double>(jump) <= static_cast<double>(jump_bound<S>()));
+                REQUIRE(jump <= jump_bound<S>());
                 const Bend in = bend_at(out[i], true);
                 const Bend next = bend_at(out[i + 1], false);
-                REQUIRE(static_cast<double>(distance_of(in.direction, next.direction)) <=
-                        static_cast<double>(200.0L * unit_roundoff<S>()));
+                REQUIRE(distance_of(in.direction, next.direction) <= 200.0L * unit_roundoff<S>());
                 // The tangents' lengths are the source's.
                 REQUIRE(static_cast<double>(in.leg / bend_at(source[i], true).leg) == Approx(1.0).epsilon(1e-5));
             }
@@ -175,7 +173,7 @@ TEMPLATE_TEST_CASE("smoothed curve: a closed curve is G2 at its seam, too", "[cu
         for (std::size_t i = 0; i < 9; ++i) {
             CAPTURE(static_cast<int>(kind), i);
             REQUIRE(out[i].waypoint == plain[i].waypoint);
-            REQUIRE(static_cast<double>(jump_of(out[i], out[(i + 1) % 9])) <= static_cast<double>(jump_bound<S>()));
+            REQUIRE(jump_of(out[i], out[(i + 1) % 9]) <= jump_bound<S>());
         }
         REQUIRE(jump_of(plain[8], plain[0]) > 1e-3L);
     }
