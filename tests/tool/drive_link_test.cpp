@@ -10,6 +10,7 @@
 using splinefeed::host::ListenAddress;
 using splinefeed::host::ReservedPort;
 using splinefeed::test::Call;
+using splinefeed::test::contains;
 using splinefeed::test::DriveProcess;
 using splinefeed::test::Tool;
 
@@ -22,10 +23,6 @@ const std::string line = "x,y,z\n0,0,0\n2,0,0\n";
 template <class Owner>
 std::string address(const Owner& owner) {
     return "modbus-tcp://127.0.0.1:" + std::to_string(owner.port());
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 void check_refusal(const Call& call, int status, const std::string& told) {

@@ -133,42 +133,6 @@ TEST_CASE("An override scales the programmed feed, at most to the machine's") {
     CHECK(middle.seconds() == Approx(1.025 + 2.0 + 0.0125).margin(0.03));
 }
 
-TEST_CASE("An event that is wrong gets one line with its place, and nothing is written") {
-    const Tool tool;
-    tool.write("line.csv", line);
-    struct Case {
-        std::string text;
-        std::string told;
-    };
-    const std::vector<Case> cases{
-        {"t,event,value\n0.5,hodl\n", "e.csv:2: there is no event 'hodl'; did you mean 'hold'?"},
-        {"0.5,hold\n1,resume,2\n", "e.csv:2: resume takes no value; leave '2' out"},
-        {"# shift\n\n0.5,override\n", "e.csv:3: '': the value of an override must be a number from 0 to 2"},
-        {"0.5,override,2.5\n", "e.csv:1: '2.5': the value of an override must be a number from 0 to 2"},
-        {"half,hold\n", "e.csv:1: 'half': the time must be a number of seconds, 0 to 86400"},
-        {"0.5\n", "e.csv:1: the row has a time only; it must be like 0.5,hold or 0.5,override,0.8"},
-        {"0.5,override,1,1\n", "e.csv:1: the row has 4 fields; it must be like 0.5,hold or 0.5,override,0.8"},
-        {"0.5,hold\n1.5,resume\n1,abort\n",
-         "e.csv:3: 1 s is before the event above, at 1.5 s; put the rows in order of time"},
-    };
-    for (const Case& c : cases) {
-        tool.write("e.csv", c.text);
-        for (const std::string command : {"run", "plan"}) {
-            const Call call =
-                tool(command + " line.csv --events e.csv --trace t.csv --segments s.csv --curve-out c.json");
-            CAPTURE(command, c.text);
-            CHECK(call.status == 2);
-            CHECK(call.output.empty());
-            CHECK(call.error == c.told + "\n");
-            CHECK(tool.holds_only("line.csv e.csv"));
-        }
-    }
-    const Call missing = tool("run line.csv --events none.csv --trace t.csv");
-    CHECK(missing.status == 2);
-    CHECK(missing.error.find("none.csv: cannot be opened") != std::string::npos);
-    CHECK(tool.holds_only("line.csv e.csv"));
-}
-
 TEST_CASE("What is planned with events is what is run") {
     const Tool tool;
     tool.write("line.csv", line);

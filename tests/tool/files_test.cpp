@@ -8,6 +8,7 @@
 #include <vector>
 
 using splinefeed::test::Call;
+using splinefeed::test::contains;
 using splinefeed::test::Tool;
 
 namespace {
@@ -27,10 +28,6 @@ void write_inputs(const Tool& tool) {
 
 bool untouched(const Tool& tool) {
     return tool.read("p.csv") == program && tool.read("m.toml") == machine && tool.read("e.csv") == events;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 bool one_line(const std::string& text) {

@@ -48,13 +48,6 @@ TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleratio
     }
 }
 
-TEST_CASE("What a jerk-limited machine cannot do is told in one line") {
-    const Tool tool;
-    const Call in_float = tool("run " + examples + "square.csv'" + machine + " --scalar float --quiet");
-    CHECK(in_float.status == 2);
-    CHECK(in_float.error.find("float has too few digits for a jerk limit") != std::string::npos);
-}
-
 TEST_CASE("A jerk-limited run is steered and ends where it ends unsteered") {
     const Tool tool;
     const std::string run = "run " + examples + "path61.csv'" + machine + " --summary json --quiet";

@@ -55,7 +55,7 @@ class Row:
             done = subprocess.run(f"'{tool}' {self.command}", shell=True, cwd=folder, capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL, timeout=60, check=False)
             left = sorted(set(p.name for p in pathlib.Path(folder).iterdir()) - set(self.files))
-        return done.returncode, done.stderr + (f"and left {', '.join(left)}\n" if left else "")
+        return done.returncode, done.stdout + done.stderr + (f"and left {', '.join(left)}\n" if left else "")
 
 
 def rows_of(path):

@@ -76,6 +76,10 @@ private:
     std::filesystem::path folder_;
 };
 
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// Where the last feed segment of a file ends, in its integers.
 inline std::vector<std::string> last_positions(const Tool& tool, const std::string& file) {
     std::istringstream in(tool.read(file));

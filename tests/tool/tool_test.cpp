@@ -10,6 +10,7 @@
 #include <vector>
 
 using splinefeed::test::Call;
+using splinefeed::test::contains;
 using splinefeed::test::Tool;
 
 namespace {
@@ -24,10 +25,6 @@ const std::string machine =
 
 std::size_t lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -172,7 +169,7 @@ TEST_CASE("Help and version are answers") {
     CHECK(contains(tool("run --help").output, "Example"));
 }
 
-TEST_CASE("Bad input gets one line and status 2, and nothing is written") {
+TEST_CASE("Bad input gets one line and status 2, and nothing is written, however late it comes") {
     const Tool tool;
     tool.write("machine.toml", machine);
     const std::string outputs = " -m machine.toml --trace t.csv --segments s.csv --curve-out c.json";
@@ -180,29 +177,15 @@ TEST_CASE("Bad input gets one line and status 2, and nothing is written") {
     for (int i = 0; i < 50000; ++i) {
         late += std::to_string(i % 100) + "," + std::to_string(i % 7) + "\n";
     }
-    struct Case {
-        std::string text;
-        std::string part;
-    };
-    const std::vector<Case> cases{
-        {"", "p.csv: "},
-        {"1,2\n", "p.csv:1: "},
-        {"1,2\n1,2\n", "different waypoints"},
-        {"1,2\n3,x\n", "p.csv:2: "},
-        {late + "1,nan\n", "p.csv:50002: "},
-        {"0,0\n50,5\n101,0\n", "p.csv:3: axis x goes to 101.000000 mm; its travel_mm is [0, 100]"},
-    };
-    for (const Case& c : cases) {
-        tool.write("p.csv", c.text);
-        for (const std::string command : {"run", "plan"}) {
-            const Call call = tool(command + " p.csv" + outputs);
-            CAPTURE(command, c.part, call.error);
-            CHECK(call.status == 2);
-            CHECK(call.output.empty());
-            CHECK(lines(call.error) == 1);
-            CHECK(contains(call.error, c.part));
-            CHECK(tool.holds_only("p.csv machine.toml"));
-        }
+    tool.write("p.csv", late + "1,nan\n");
+    for (const std::string command : {"run", "plan"}) {
+        const Call call = tool(command + " p.csv" + outputs);
+        CAPTURE(command, call.error);
+        CHECK(call.status == 2);
+        CHECK(call.output.empty());
+        CHECK(lines(call.error) == 1);
+        CHECK(contains(call.error, "p.csv:50002: "));
+        CHECK(tool.holds_only("p.csv machine.toml"));
     }
 }
 
