@@ -27,16 +27,18 @@ inline std::uint64_t first_round() {
     return only != nullptr ? std::strtoull(only, nullptr, 10) : 0;
 }
 
-/// @param many  where SPLINEFEED_LONG is 1, without sanitizers
+/// Whether a sweep is made in its finest steps: where SPLINEFEED_LONG is 1, without sanitizers.
+inline bool whole_sweep() {
+    const char* const set = std::getenv("SPLINEFEED_LONG");
+    return !sanitized && set != nullptr && std::string_view(set) == "1";
+}
+
+/// @param many  where whole_sweep()
 inline int rounds(int few, int many) {
     if (std::getenv("SPLINEFEED_ROUND") != nullptr) {
         return static_cast<int>(first_round()) + 1;
     }
-    if (sanitized) {
-        return (few + 3) / 4;
-    }
-    const char* const set = std::getenv("SPLINEFEED_LONG");
-    return set != nullptr && std::string_view(set) == "1" ? many : few;
+    return sanitized ? (few + 3) / 4 : whole_sweep() ? many : few;
 }
 
 inline int rounds(int few) {

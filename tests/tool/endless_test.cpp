@@ -37,14 +37,17 @@ std::string machine_of(int sample_period_us, bool jerk_limited) {
 } // namespace
 
 TEST_CASE("a path of more than 2^23 mm is planned to its end, and its length is true", "[endless]") {
-    const bool whole = splinefeed_test::rounds(0, 1) == 1; // minutes
-    const int points = whole ? 400 : 145;                  // 2.4e7 and 8.64e6 mm
+    const bool whole = splinefeed_test::whole_sweep(); // minutes
+    const int points = whole ? 400 : 145;              // 2.4e7 and 8.64e6 mm
     const Tool tool;
     tool.write("far.csv", to_and_fro(points));
     for (const bool jerk_limited : {false, true}) {
         // With a short period a segment lasts 0.5 ms.
         tool.write("m.toml", machine_of(whole ? 4000 : 100000, jerk_limited));
         for (const char* const scalar : {"fixed", "double"}) {
+            if (scalar == std::string("double") && planner.jerk_plan == std::string("bounded") && !whole) {
+                continue; // 4 s; lengths are the scalar's, and those of double are seen without a jerk limit
+            }
             const Call call =
                 tool(std::string("plan far.csv -m m.toml --curve polyline --quiet --summary json --scalar ") + scalar);
             CAPTURE(jerk_limited, scalar, call.error);
