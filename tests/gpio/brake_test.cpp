@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The brake of an axis that would fall, and what drives on lines are left at, on a virtual clock.
-#include "gpio_bench.hpp"
-
-#include "host_sim/planning/straight_motion.hpp"
-#include "host_sim/ports/gpio/gpio_target.hpp"
+#include "port_rig.hpp"
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
-#include "support/virtual_clock.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -14,21 +10,16 @@ using namespace splinefeed_test;
 
 namespace {
 
-const std::string braked_map = map_text + R"([brake]
-line = 5
-release_ms = 30
-engage_ms = 80
-)";
 constexpr std::uint64_t step_lines = 0b101;
 
-struct Bench {
-    explicit Bench(std::optional<bool> on_at_end = {}) {
-        machine.drives_on_at_end = on_at_end;
-        auto own_map = std::make_unique<hal::gpio::LineMap>(parse_gpio_map(braked_map, "m.toml", machine, "chip"));
-        auto own_lines = std::make_unique<SimulatedLines>(*own_map, clock);
-        lines = own_lines.get();
-        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunOptions{}, &clock);
-    }
+MachineDescription with_end(std::optional<bool> on_at_end) {
+    MachineDescription machine = two_axes();
+    machine.drives_on_at_end = on_at_end;
+    return machine;
+}
+
+struct Bench : TargetRig {
+    explicit Bench(std::optional<bool> on_at_end = {}) : TargetRig(with_end(on_at_end), braked_map) {}
     /// Until it is over, or `cause` happens at an instant. [ms]
     hal::PortPhase run(double at_ms, const std::function<void()>& cause) {
         RunTarget& run_target = *target;
@@ -74,11 +65,6 @@ struct Bench {
         }
         return UINT64_MAX;
     }
-
-    VirtualClock clock;
-    MachineDescription machine = two_axes();
-    SimulatedLines* lines = nullptr;
-    std::unique_ptr<GpioTarget> target;
 };
 
 } // namespace
@@ -136,14 +122,10 @@ TEST_CASE("drives on lines stay on where the machine file says so, and the machi
     }
 }
 
-TEST_CASE("a parked port switches the drives on again, and releases the brake", "[brake]") {
-    Bench bench;
-    hal::gpio::LineMap map = parse_gpio_map(braked_map, "m.toml", bench.machine, "chip");
-    SimulatedLines lines(map, bench.clock);
-    hal::gpio::StepPort port(lines.outputs(), port_settings(bench.machine, map, &bench.clock));
+TEST_CASE_METHOD(PortRig, "a parked port switches the drives on again, and releases the brake", "[brake]") {
     for (int i = 0; i < 2; ++i) {
         static_cast<void>(port.start());
-        bench.clock.sleep_us(20'000);
+        clock.sleep_us(20'000);
         CHECK(lines.enabled());
         CHECK(lines.released(lines.rows().back().levels));
         port.close();

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 // GpioMover on a virtual clock: homing, and what ends it.
-#include "gpio_bench.hpp"
-#include "host_sim/ports/gpio/gpio_target.hpp"
+#include "port_rig.hpp"
 #include "support/catch.hpp"
-#include "support/virtual_clock.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
 
-TEST_CASE("homing", "[stopping]") {
-    VirtualClock clock;
-    const MachineDescription machine = two_axes();
-    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
-    SimulatedLines lines(map, clock);
-    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+TEST_CASE_METHOD(PlainRig, "homing", "[stopping]") {
     lines.drive(e_stop, false);
     int interrupts = 0;
     const auto homed = [&](auto meanwhile) {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // How a run on GPIO lines stops, on a virtual clock: whatever asks for it, and whatever the planner does meanwhile.
-#include "gpio_bench.hpp"
-
-#include "host_sim/planning/straight_motion.hpp"
-#include "host_sim/ports/gpio/gpio_target.hpp"
+#include "port_rig.hpp"
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
 #include "support/random_path.hpp"
 #include "support/rounds.hpp"
-#include "support/virtual_clock.hpp"
 
 #include <fmt/format.h>
 
@@ -20,15 +16,15 @@ namespace {
 
 constexpr double to_x_mm = 200.0;
 constexpr double to_y_mm = 100.0;
-struct Bench {
-    explicit Bench(const RunOptions& options = {}) {
-        machine.travel[0] = {0.0, 10.0};
-        auto own_map = std::make_unique<hal::gpio::LineMap>(parse_gpio_map(map_text, "m.toml", machine, "chip"));
-        map = own_map.get();
-        auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
-        lines = own_lines.get();
-        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, options, &clock);
-    }
+
+MachineDescription with_travel() {
+    MachineDescription machine = two_axes();
+    machine.travel[0] = {0.0, 10.0};
+    return machine;
+}
+
+struct Bench : TargetRig {
+    explicit Bench(const RunOptions& options = {}) : TargetRig(with_travel(), map_text, options) {}
 
     [[nodiscard]] double now_ms() const {
         return static_cast<double>(clock.now_ns() - began_ns) / static_cast<double>(ns_per_ms);
@@ -50,12 +46,7 @@ struct Bench {
         return 0.0;
     }
 
-    VirtualClock clock;
-    MachineDescription machine = two_axes();
     std::uint64_t began_ns = clock.now_ns();
-    hal::gpio::LineMap* map = nullptr;
-    SimulatedLines* lines = nullptr;
-    std::unique_ptr<GpioTarget> target;
 };
 
 /// What happens in a run, and when. [ms]

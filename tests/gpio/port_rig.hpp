@@ -18,6 +18,8 @@ engage_ms = 80
 )";
 
 struct PortRig {
+    explicit PortRig(const std::string& text = braked_map)
+        : map(splinefeed::host::parse_gpio_map(text, "m.toml", machine, "chip")) {}
     [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns() - began_ns) * 1e-6; }
     /// Hands segments over as long as there is room; the last one is not at rest where the motion goes on.
     bool feed(splinefeed::host::StraightMotion& motion) {
@@ -59,9 +61,34 @@ struct PortRig {
     VirtualClock clock;
     std::uint64_t began_ns = clock.now_ns();
     splinefeed::host::MachineDescription machine = two_axes();
-    splinefeed::hal::gpio::LineMap map = splinefeed::host::parse_gpio_map(braked_map, "m.toml", machine, "chip");
+    splinefeed::hal::gpio::LineMap map;
     SimulatedLines lines{map, clock};
     splinefeed::hal::gpio::StepPort port{lines.outputs(), splinefeed::host::port_settings(machine, map, &clock)};
+};
+/// One whose drives have no brake.
+struct PlainRig : PortRig {
+    PlainRig() : PortRig(map_text) {}
+};
+
+/// A GpioTarget on simulated lines.
+struct TargetRig {
+    TargetRig(const splinefeed::host::MachineDescription& description, const std::string& text,
+              const splinefeed::host::RunOptions& options = {})
+        : machine(description) {
+        auto own_map = std::make_unique<splinefeed::hal::gpio::LineMap>(
+            splinefeed::host::parse_gpio_map(text, "m.toml", machine, "chip"));
+        map = own_map.get();
+        auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
+        lines = own_lines.get();
+        target = std::make_unique<splinefeed::host::GpioTarget>(std::move(own_map), std::move(own_lines), machine,
+                                                                options, &clock);
+    }
+
+    VirtualClock clock;
+    splinefeed::host::MachineDescription machine;
+    splinefeed::hal::gpio::LineMap* map = nullptr;
+    SimulatedLines* lines = nullptr;
+    std::unique_ptr<splinefeed::host::GpioTarget> target;
 };
 
 } // namespace splinefeed_test

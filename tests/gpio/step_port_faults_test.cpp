@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
 // StepPort on a virtual clock: disable(), and lines that cannot be set.
-#include "gpio_bench.hpp"
-#include "host_sim/planning/straight_motion.hpp"
-#include "host_sim/ports/gpio/gpio_target.hpp"
+#include "port_rig.hpp"
 #include "support/catch.hpp"
-#include "support/virtual_clock.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
 
-TEST_CASE("a port that was disabled enables nothing, before and after", "[stopping]") {
-    VirtualClock clock;
-    const MachineDescription machine = two_axes();
-    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
-    SimulatedLines lines(map, clock);
-    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+TEST_CASE_METHOD(PlainRig, "a port that was disabled enables nothing, before and after", "[stopping]") {
     SECTION("before the start") {
         port.disable();
         CHECK(port.start().empty());
@@ -42,12 +34,7 @@ TEST_CASE("a port that was disabled enables nothing, before and after", "[stoppi
     port.close();
 }
 
-TEST_CASE("a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
-    VirtualClock clock;
-    const MachineDescription machine = two_axes();
-    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
-    SimulatedLines lines(map, clock);
-    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+TEST_CASE_METHOD(PlainRig, "a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
     static_cast<void>(port.start());
     CHECK(lines.enabled());
     StraightMotion motion(machine, {}, {10.0, 0.0}, 50.0);
