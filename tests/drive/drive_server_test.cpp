@@ -4,14 +4,12 @@
 #include "host_sim/drive/drive_server.hpp"
 #include "modbus/scripted_peer.hpp"
 #include "support/catch.hpp"
+#include "support/terminal.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fcntl.h>
 #include <termios.h>
 #include <thread>
-#include <unistd.h>
 
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -86,32 +84,24 @@ Rows recorded(ClockDrive& drive, const ListenAddress& address, const std::string
 TEST_CASE("drive server: a request takes effect late on a host that stood still; the record has every row where the "
           "shaft was",
           "[drive]") {
-    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(master >= 0);
-    REQUIRE(grantpt(master) == 0);
-    REQUIRE(unlockpt(master) == 0);
-    const std::string name = ptsname(master); // NOLINT(concurrency-mt-unsafe): one thread
-    const int line = open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    REQUIRE(line >= 0);
+    const Terminal terminal;
     termios raw{};
-    REQUIRE(tcgetattr(line, &raw) == 0);
+    REQUIRE(tcgetattr(terminal.descriptor(), &raw) == 0);
     cfmakeraw(&raw);
-    REQUIRE(tcsetattr(line, TCSANOW, &raw) == 0);
+    REQUIRE(tcsetattr(terminal.descriptor(), TCSANOW, &raw) == 0);
     // At 1200 baud it takes 105 ms with the silence behind it: received before the host stands still, due while it
     // does.
     const Bytes request = with_crc({1, 3, 0, 0, 0, 1});
-    REQUIRE(write(master, request.data(), request.size()) == static_cast<ssize_t>(request.size()));
+    terminal.type({reinterpret_cast<const char*>(request.data()), request.size()});
     ListenAddress address;
     address.kind = ListenAddress::Kind::rtu;
-    address.device = name;
+    address.device = terminal.name();
     address.baud = 1200;
     ClockDrive drive;
     const Rows rows = recorded(drive, address, "");
     CHECK(rows.wrong == 0);
     CHECK(rows.count >= 400);
     CHECK(drive.happened);
-    close(line);
-    close(master);
 }
 
 TEST_CASE(

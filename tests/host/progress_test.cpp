@@ -2,63 +2,18 @@
 #include "host_sim/output/progress.hpp"
 
 #include "host_sim/base/standard_streams.hpp"
-#include "support/catch.hpp"
+#include "support/terminal.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <thread>
 
-#include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 
 using namespace splinefeed::host;
+using splinefeed_test::Terminal;
 
 namespace {
-
-// A terminal whose output can be read.
-class Terminal {
-public:
-    Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
-        if (master_ >= 0 && grantpt(master_) == 0 && unlockpt(master_) == 0) {
-            slave_ = open(ptsname(master_), O_RDWR | O_NOCTTY);
-        }
-    }
-    Terminal(const Terminal&) = delete;
-    Terminal& operator=(const Terminal&) = delete;
-    ~Terminal() {
-        close(slave_);
-        close(master_);
-    }
-    [[nodiscard]] int descriptor() const { return slave_; }
-    // All that was written; it may arrive late.
-    [[nodiscard]] std::string shown() const {
-        std::string text;
-        pollfd readable{master_, POLLIN, 0};
-        while (poll(&readable, 1, 200) == 1) {
-            char part[4096];
-            const ssize_t n = read(master_, part, sizeof part);
-            if (n <= 0) {
-                break;
-            }
-            text.append(part, static_cast<std::size_t>(n));
-        }
-        return text;
-    }
-
-private:
-    int master_;
-    int slave_ = -1;
-};
-
-/// Says that a test is left out where it was not.
-bool opened(const Terminal& terminal) {
-    if (terminal.descriptor() < 0) {
-        WARN("SKIPPED: no pseudo terminal can be opened");
-    }
-    return terminal.descriptor() >= 0;
-}
 
 const std::string erase = "\r\x1b[K";
 
@@ -75,9 +30,6 @@ void work(Progress& progress, std::chrono::milliseconds time) {
 
 TEST_CASE("on a terminal the line is redrawn at most ten times a second and erased at the end") {
     const Terminal terminal;
-    if (!opened(terminal)) {
-        return;
-    }
     std::string shown;
     {
         Progress progress({.descriptor = terminal.descriptor()});
@@ -94,9 +46,6 @@ TEST_CASE("on a terminal the line is redrawn at most ten times a second and eras
 
 TEST_CASE("a run too short to draw leaves no trace") {
     const Terminal terminal;
-    if (!opened(terminal)) {
-        return;
-    }
     {
         Progress progress({.descriptor = terminal.descriptor()});
         if (progress.due()) {
@@ -108,9 +57,6 @@ TEST_CASE("a run too short to draw leaves no trace") {
 
 TEST_CASE("after finish nothing is drawn") {
     const Terminal terminal;
-    if (!opened(terminal)) {
-        return;
-    }
     Progress progress({.descriptor = terminal.descriptor()});
     work(progress, std::chrono::milliseconds(150));
     progress.finish();
@@ -144,9 +90,6 @@ TEST_CASE("what is no terminal gets nothing") {
 
 TEST_CASE("a message does not stand behind the line") {
     const Terminal terminal;
-    if (!opened(terminal)) {
-        return;
-    }
     Progress progress({.descriptor = terminal.descriptor()});
     work(progress, std::chrono::milliseconds(150));
     CHECK(terminal.shown().size() > erase.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/run/user_pause.hpp"
 
-#include "support/catch.hpp"
+#include "support/terminal.hpp"
 
 #include <chrono>
 #include <cstdlib>
@@ -11,31 +11,9 @@
 #include <unistd.h>
 
 using namespace splinefeed::host;
+using splinefeed_test::Terminal;
 
 namespace {
-
-/// A terminal, and the keyboard at it.
-struct Terminal {
-    Terminal() : keyboard(posix_openpt(O_RDWR | O_NOCTTY)) {
-        REQUIRE(keyboard >= 0);
-        REQUIRE(grantpt(keyboard) == 0);
-        REQUIRE(unlockpt(keyboard) == 0);
-        screen = open(ptsname(keyboard), O_RDWR | O_NOCTTY);
-        REQUIRE(screen >= 0);
-    }
-    Terminal(const Terminal&) = delete;
-    Terminal& operator=(const Terminal&) = delete;
-    ~Terminal() {
-        close(screen);
-        close(keyboard);
-    }
-    void type(std::string_view keys) const {
-        REQUIRE(write(keyboard, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
-    }
-
-    int keyboard;
-    int screen = -1;
-};
 
 bool answers(UserPause& pause) {
     for (int i = 0; i < 200 && !pause.answered(); ++i) {
@@ -48,7 +26,7 @@ bool answers(UserPause& pause) {
 
 TEST_CASE("Enter on the terminal goes on, and what was typed before does not") {
     const Terminal terminal;
-    UserPause pause(terminal.screen);
+    UserPause pause(terminal.descriptor());
     terminal.type("before\n");
     pause.ask("line 1: M0");
     CHECK_FALSE(answers(pause));
@@ -62,7 +40,7 @@ TEST_CASE("Enter on the terminal goes on, and what was typed before does not") {
 
 TEST_CASE("A signal goes on, with a terminal and without one, and one from before does not") {
     const Terminal terminal;
-    for (const int from : {-1, terminal.screen}) {
+    for (const int from : {-1, terminal.descriptor()}) {
         UserPause pause(from);
         pause.go_on();
         pause.ask("line 1: M6, tool 3");
