@@ -28,14 +28,7 @@ Motion circle(double radius, double speed) {
         x.push_back(static_cast<long double>(radius) * std::cos(angle));
         y.push_back(static_cast<long double>(radius) * std::sin(angle));
     }
-    Motion motion = motion_of(x, 0);
-    const Motion other = motion_of(y, 1);
-    for (std::size_t i = 0; i < motion.size(); ++i) {
-        motion[i].start[1] = other[i].start[1];
-        motion[i].end[1] = other[i].end[1];
-        motion[i].start_velocity[1] = other[i].start_velocity[1];
-        motion[i].end_velocity[1] = other[i].end_velocity[1];
-    }
+    const Motion motion = both(motion_of(x, 0), motion_of(y, 1));
     // without its ends, where the samples start and stop at once
     return Motion(motion.begin() + 10, motion.end() - 10);
 }
@@ -125,14 +118,7 @@ TEST_CASE("on a straight line nothing goes across the path") {
     MachineSettings machine = machine_of({"x", "y"}).settings;
     machine.centripetal_mm_s2 = 1.0;
     machine.chord_error_mm = 1e-6;
-    Motion motion = there(80.0, 500.0, 0);
-    for (FeedSegment& segment : motion) {
-        segment.start[1] = segment.start[0];
-        segment.end[1] = segment.end[0];
-        segment.start_velocity[1] = segment.start_velocity[0];
-        segment.end_velocity[1] = segment.end_velocity[0];
-    }
-    const LimitShares shares = shares_of(machine, motion);
+    const LimitShares shares = shares_of(machine, both(there(80.0, 500.0, 0), there(80.0, 500.0, 1)));
     CHECK(shares.centripetal.value() == 0.0);
     CHECK(shares.chord.value() == 0.0);
     CHECK(shares.none == 1.0);

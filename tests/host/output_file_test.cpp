@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/output_file.hpp"
 
+#include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
@@ -36,15 +37,6 @@ int in_child(const std::function<void()>& body) {
     int status = 0;
     REQUIRE(waitpid(child, &status, 0) == child);
     return status;
-}
-
-std::string message_of(const std::function<void()>& body) {
-    try {
-        body();
-    } catch (const OutputError& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -191,7 +183,7 @@ TEST_CASE("a file that cannot grow is an error that names it, and leaves nothing
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
             _exit(2);
         }
-        const std::string message = message_of([&] { write(path, megabyte); });
+        const std::string message = refusal_of<OutputError>([&] { write(path, megabyte); });
         _exit(message.find(path + ": cannot write: File too large; ") == 0 ? 0 : 1);
     });
     CHECK(WIFEXITED(status));
@@ -203,11 +195,13 @@ TEST_CASE("a file that cannot grow is an error that names it, and leaves nothing
 TEST_CASE("what cannot be created is refused at once, in one line") {
     const TemporaryFolder folder;
     const std::string missing = folder.file("missing/out.csv");
-    const std::string message = message_of([&] { OutputFile file(missing); });
+    const std::string message = refusal_of<OutputError>([&] { OutputFile file(missing); });
     CHECK(message.find(missing + ": cannot create: No such file or directory; ") == 0);
     CHECK(message.find('\n') == std::string::npos);
-    CHECK(message_of([&] { OutputFile file(folder.file("")); }).find("not a directory") != std::string::npos);
-    CHECK(message_of([&] { OutputFile file(folder.file("new/")); }).find("not a directory") != std::string::npos);
+    CHECK(refusal_of<OutputError>([&] { OutputFile file(folder.file("")); }).find("not a directory") !=
+          std::string::npos);
+    CHECK(refusal_of<OutputError>([&] { OutputFile file(folder.file("new/")); }).find("not a directory") !=
+          std::string::npos);
     CHECK_THROWS_AS(OutputFile(""), OutputError);
     CHECK(folder.entries().empty());
 }

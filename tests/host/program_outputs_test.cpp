@@ -87,27 +87,33 @@ private:
     TalkingTarget* target_;
 };
 
-/// A machine with a spindle, switches or inputs.
 template <class Output>
-struct With {
-    explicit With(TalkingTarget& target) {
-        auto made = std::make_unique<Output>(target);
-        output = made.get();
-        if constexpr (std::is_same_v<Output, TalkingSpindle>) {
-            outputs = std::make_unique<ProgramOutputs>(std::move(made), ProgramOutputs::Switches{});
-        } else if constexpr (std::is_same_v<Output, TalkingSwitches>) {
-            ProgramOutputs::Switches switches;
-            switches.push_back(std::move(made));
-            outputs = std::make_unique<ProgramOutputs>(nullptr, std::move(switches));
-        } else {
-            ProgramOutputs::Inputs inputs;
-            inputs.push_back(std::move(made));
-            outputs = std::make_unique<ProgramOutputs>(nullptr, ProgramOutputs::Switches{}, std::move(inputs));
-        }
+std::unique_ptr<ProgramOutputs> outputs_of(std::unique_ptr<Output> output) {
+    ProgramOutputs::Switches switches;
+    ProgramOutputs::Inputs inputs;
+    std::unique_ptr<RunSpindle> spindle;
+    if constexpr (std::is_same_v<Output, TalkingSpindle>) {
+        spindle = std::move(output);
+    } else if constexpr (std::is_same_v<Output, TalkingSwitches>) {
+        switches.push_back(std::move(output));
+    } else {
+        inputs.push_back(std::move(output));
     }
-    Output* output;
-    std::unique_ptr<ProgramOutputs> outputs;
+    return std::make_unique<ProgramOutputs>(std::move(spindle), std::move(switches), std::move(inputs));
+}
+
+/// The run of a machine with a spindle, switches or inputs.
+template <class Output>
+struct Talking {
+    SignalWatch signals{{}};
+    TalkingTarget target;
+    std::unique_ptr<Output> made = std::make_unique<Output>(target);
+    Output& output = *made;
+    std::unique_ptr<ProgramOutputs> outputs = outputs_of(std::move(made));
 };
+using SpindleRun = RunOf<Talking<TalkingSpindle>>;
+using SwitchRun = RunOf<Talking<TalkingSwitches>>;
+using InputRun = RunOf<Talking<TalkingInputs>>;
 
 ProgramAction turn(int direction, double rpm) {
     ProgramAction action;
@@ -132,114 +138,79 @@ ProgramAction question(InputWait wait, double timeout_s) {
 
 } // namespace
 
-TEST_CASE("a spindle gets its order when the machine has come to its place", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSpindle> machine(target);
-    TalkingSpindle& spindle = *machine.output;
-    Supervision supervision(target, signals, machine.outputs.get());
+TEST_CASE_METHOD(SpindleRun, "a spindle gets its order when the machine has come to its place", "[supervision]") {
     target.executed = 1000; // on the way to the references
-    REQUIRE(supervision.submit(segment(0)));
+    submit();
     supervision.order(turn(1, 12000.0), true);
     REQUIRE(comes([&] { return target.told().size() == 2; }));
     target.executed = 1002; // the segment, and the first of standstill
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    CHECK(target.told() == Told{"prepare", "segment 0"});
+    stays({"prepare", "segment 0"});
     target.executed = 1003;
     CHECK(comes([&] { return target.told().back() == "spindle 1 12000"; }));
     CHECK_FALSE(supervision.carried_out());
-    spindle.is_reached = true;
+    output.is_reached = true;
     CHECK(supervision.carried_out());
     CHECK(supervision.finish());
     CHECK(target.told() == Told{"prepare", "segment 0", "spindle 1 12000", "complete", "spindle ends", "finish"});
 }
 
-TEST_CASE("trouble of a spindle holds the motion and ends the run", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSpindle> machine(target);
-    TalkingSpindle& spindle = *machine.output;
-    Supervision supervision(target, signals, machine.outputs.get());
-    REQUIRE(supervision.submit(segment(0)));
-    spindle.is_still = false;
-    spindle.lost = true;
-    REQUIRE(comes([&] { return supervision.over(); }));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() ==
-          "no answer; held; the spindle did not confirm that it stands and may still turn; there");
+TEST_CASE_METHOD(SpindleRun, "trouble of a spindle holds the motion and ends the run", "[supervision]") {
+    submit();
+    output.is_still = false;
+    output.lost = true;
+    is_over();
+    fails("no answer; held; the spindle did not confirm that it stands and may still turn; there");
     const Told told = target.told();
     CHECK(std::find(told.begin(), told.end(), "hold") < std::find(told.begin(), told.end(), "spindle ends"));
 }
 
-TEST_CASE("a second signal and a fault end the spindle first of all", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSpindle> machine(target);
-    TalkingSpindle& spindle = *machine.output;
-    Supervision supervision(target, signals, machine.outputs.get());
+TEST_CASE_METHOD(SpindleRun, "a second signal and a fault end the spindle first of all", "[supervision]") {
     SECTION("the second signal") {
         target.halts = false;
-        REQUIRE(supervision.submit(segment(0)));
-        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        move();
         request(1);
         REQUIRE(comes([&] { return target.told().back() == "hold"; }));
-        CHECK_FALSE(spindle.ended);
+        CHECK_FALSE(output.ended);
         supervision.order(turn(1, 12000.0), true); // nothing is started any more
         target.executed = 10;
         request(2);
-        REQUIRE(comes([&] { return supervision.over(); }));
+        is_over();
         CHECK_FALSE(supervision.finish());
         CHECK(target.told() == Told{"prepare", "segment 0", "hold", "spindle ends", "quick stop", "finish"});
     }
     SECTION("a fault") {
-        REQUIRE(supervision.submit(segment(0)));
-        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        move();
         target.phase = hal::PortPhase::fault;
-        REQUIRE(comes([&] { return supervision.over(); }));
+        is_over();
         CHECK_FALSE(supervision.finish());
         CHECK(target.told().at(2) == "spindle ends");
         CHECK(supervision.ending() == "a fault; there");
     }
 }
 
-TEST_CASE("a program whose spindle does not come to a standstill has not succeeded", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSpindle> machine(target);
-    TalkingSpindle& spindle = *machine.output;
-    Supervision supervision(target, signals, machine.outputs.get());
-    spindle.is_still = false;
-    REQUIRE(supervision.submit(segment(0)));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "the spindle did not confirm that it stands and may still turn; there");
+TEST_CASE_METHOD(SpindleRun, "a program whose spindle does not come to a standstill has not succeeded",
+                 "[supervision]") {
+    output.is_still = false;
+    submit();
+    fails("the spindle did not confirm that it stands and may still turn; there");
 }
 
-TEST_CASE("a spindle that may still turn is told whatever ended the run", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSpindle> machine(target);
-    TalkingSpindle& spindle = *machine.output;
-    Supervision supervision(target, signals, machine.outputs.get());
-    spindle.is_still = false;
-    REQUIRE(supervision.submit(segment(0)));
+TEST_CASE_METHOD(SpindleRun, "a spindle that may still turn is told whatever ended the run", "[supervision]") {
+    output.is_still = false;
+    submit();
     target.breaks = true;
-    REQUIRE(comes([&] { return supervision.over(); }));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() ==
-          "it broke; held; the spindle did not confirm that it stands and may still turn; there");
+    is_over();
+    fails("it broke; held; the spindle did not confirm that it stands and may still turn; there");
     const Told told = target.told();
     CHECK(std::find(told.begin(), told.end(), "spindle ends") < std::find(told.begin(), told.end(), "quick stop"));
 }
 
-TEST_CASE("switches act in order when the machine has come to their place, and end with the run", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSwitches> machine(target);
-    Supervision supervision(target, signals, machine.outputs.get());
-    REQUIRE(supervision.submit(segment(0)));
+TEST_CASE_METHOD(SwitchRun, "switches act in order when the machine has come to their place, and end with the run",
+                 "[supervision]") {
+    submit();
     supervision.order(switching(EventKind::flood_on), false);
     supervision.order(switching(EventKind::output_on, 3), false);
-    REQUIRE(supervision.submit(segment(1)));
+    submit(1);
     supervision.order(switching(EventKind::coolant_off), false);
     REQUIRE(comes([&] { return target.told().size() == 3; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -255,18 +226,13 @@ TEST_CASE("switches act in order when the machine has come to their place, and e
                                 "complete", "switches end", "finish"});
 }
 
-TEST_CASE("trouble of a line holds the motion and ends the run; nothing is switched after a signal", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSwitches> machine(target);
-    Supervision supervision(target, signals, machine.outputs.get());
-    REQUIRE(supervision.submit(segment(0)));
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
+TEST_CASE_METHOD(SwitchRun, "trouble of a line holds the motion and ends the run; nothing is switched after a signal",
+                 "[supervision]") {
+    move();
     SECTION("trouble") {
-        machine.output->lost = true;
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "a line is lost; held; there");
+        output.lost = true;
+        is_over();
+        fails("a line is lost; held; there");
         CHECK(target.told() == Told{"prepare", "segment 0", "hold", "switches end", "finish"});
     }
     SECTION("a signal") {
@@ -278,35 +244,31 @@ TEST_CASE("trouble of a line holds the motion and ends the run; nothing is switc
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         CHECK(target.told().back() == "hold"); // and what is on stays on, until the machine stands
         target.phase = hal::PortPhase::halted;
-        REQUIRE(comes([&] { return supervision.over(); }));
+        is_over();
         CHECK(target.told() == Told{"prepare", "segment 0", "hold", "switches end", "finish"});
     }
     SECTION("a fault") {
         target.phase = hal::PortPhase::fault;
-        REQUIRE(comes([&] { return supervision.over(); }));
+        is_over();
         CHECK(target.told() == Told{"prepare", "segment 0", "switches end", "finish"});
     }
 }
 
-TEST_CASE("an input is read when the machine stands, until it answers", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingInputs> machine(target);
-    Supervision supervision(target, signals, machine.outputs.get());
-    machine.output->level = 1; // as it was before
-    REQUIRE(supervision.submit(segment(0)));
+TEST_CASE_METHOD(InputRun, "an input is read when the machine stands, until it answers", "[supervision]") {
+    output.level = 1; // as it was before
+    submit();
     supervision.order(question(InputWait::low, 60.0), true);
     REQUIRE(comes([&] { return target.told().size() == 2; }));
-    machine.output->level = 0;
+    output.level = 0;
     target.executed = 2;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     CHECK(target.told().size() == 2);
-    machine.output->level = 1;
+    output.level = 1;
     target.executed = 3;
     REQUIRE(comes([&] { return target.told().back() == "watch 4"; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     CHECK_FALSE(supervision.carried_out());
-    machine.output->level = 0;
+    output.level = 0;
     CHECK(comes([&] { return supervision.carried_out(); }));
     CHECK(supervision.input() == 0);
     supervision.order(question(InputWait::high, 0.05), true);
@@ -317,36 +279,27 @@ TEST_CASE("an input is read when the machine stands, until it answers", "[superv
           Told{"prepare", "segment 0", "watch 4", "unwatch", "watch 4", "unwatch", "complete", "finish"});
 }
 
-TEST_CASE("an input that never answers does not keep a run from its end", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingInputs> machine(target);
-    Supervision supervision(target, signals, machine.outputs.get());
+TEST_CASE_METHOD(InputRun, "an input that never answers does not keep a run from its end", "[supervision]") {
     target.executed = 10;
-    REQUIRE(supervision.submit(segment(0)));
+    submit();
     SECTION("a signal") {
         supervision.order(question(InputWait::high, 1000.0), true);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         request(1);
-        REQUIRE(comes([&] { return supervision.over(); }));
+        is_over();
         CHECK(supervision.ending() == "held; there");
     }
     SECTION("its trouble") {
-        machine.output->lost = true;
-        REQUIRE(comes([&] { return supervision.over(); }));
+        output.lost = true;
+        is_over();
         CHECK(supervision.ending() == "an input is lost; held; there");
     }
 }
 
-TEST_CASE("an output that does not confirm its end is said", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    const With<TalkingSwitches> machine(target);
-    Supervision supervision(target, signals, machine.outputs.get());
-    machine.output->hangs = true;
-    REQUIRE(supervision.submit(segment(0)));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "output 3 did not confirm its last level; there");
+TEST_CASE_METHOD(SwitchRun, "an output that does not confirm its end is said", "[supervision]") {
+    output.hangs = true;
+    submit();
+    fails("output 3 did not confirm its last level; there");
 }
 
 TEST_CASE("the end waits for each output as long as that one may take", "[supervision]") {

@@ -219,15 +219,8 @@ TEST_CASE("the feed is that of the linear axes, and where they stand that of the
     CHECK(fault_of(machine, there(40.0 * hardly_over, 500.0, 0)) == "none");
     CHECK(fault_of(machine, there(40.0 * over, 500.0, 0)) == "feed");
     CHECK(fault_of(machine, there(40.0 * over, 500.0, 1)) == "feed");
-    Motion both = there(80.0, 500.0, 0);
-    for (FeedSegment& segment : both) { // x at half the speed
-        segment.start[1] = segment.start[0] / 2;
-        segment.end[1] = segment.end[0] / 2;
-        segment.start_velocity[1] = segment.start_velocity[0] / 2;
-        segment.end_velocity[1] = segment.end_velocity[0] / 2;
-    }
     SimulatedMachine simulated(machine, 1);
-    run(simulated, both);
+    run(simulated, both(there(80.0, 500.0, 0), there(40.0, 250.0, 1))); // x at half the speed
     CHECK_FALSE(simulated.fault());
     CHECK(simulated.max_path_speed_mm_s() == Approx(40.0));
     SimulatedMachine turning(machine, 1);
@@ -245,14 +238,7 @@ TEST_CASE("the feed is that of the linear axes, and where they stand that of the
 TEST_CASE("the path is made of x, y and z, or of all axes where there are none of these") {
     const auto speed = [](std::vector<std::string> names) {
         SimulatedMachine machine(machine_of(std::move(names)), 1);
-        Motion motion = there(40.0, 500.0, 0);
-        for (FeedSegment& segment : motion) {
-            segment.start[1] = segment.start[0] / 4 * 3;
-            segment.end[1] = segment.end[0] / 4 * 3;
-            segment.start_velocity[1] = segment.start_velocity[0] / 4 * 3;
-            segment.end_velocity[1] = segment.end_velocity[0] / 4 * 3;
-        }
-        run(machine, motion);
+        run(machine, both(there(40.0, 500.0, 0), there(30.0, 375.0, 1)));
         return machine.max_path_speed_mm_s();
     };
     CHECK(speed({"x", "z"}) == Approx(50.0));

@@ -9,13 +9,10 @@
 
 using namespace splinefeed_test;
 
-TEST_CASE("a run's segments reach the target in order, and then its end", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    Supervision supervision(target, signals);
+TEST_CASE_METHOD(TalkingRun, "a run's segments reach the target in order, and then its end", "[supervision]") {
     Told expected{"prepare"};
     for (std::uint32_t i = 0; i < 100; ++i) {
-        REQUIRE(supervision.submit(segment(i)));
+        submit(i);
         expected.push_back("segment " + std::to_string(i));
     }
     CHECK(supervision.finish());
@@ -25,29 +22,22 @@ TEST_CASE("a run's segments reach the target in order, and then its end", "[supe
     CHECK(supervision.where() == "; there");
 }
 
-TEST_CASE("drives that are not left as the machine file says end a run with that sentence", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "drives that are not left as the machine file says end a run with that sentence",
+                 "[supervision]") {
     target.unfinished = "a drive did not confirm that it is off";
     SECTION("behind a whole motion") {
-        Supervision supervision(target, signals);
-        REQUIRE(supervision.submit(segment(0)));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "a drive did not confirm that it is off; there");
+        submit();
+        fails("a drive did not confirm that it is off; there");
     }
     SECTION("behind a refusal") {
         target.refusal = "no";
-        Supervision supervision(target, signals);
         static_cast<void>(supervision.submit(segment(0)));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "no; a drive did not confirm that it is off; there");
+        fails("no; a drive did not confirm that it is off; there");
     }
 }
 
-TEST_CASE("a run ends on the line that the machine has come to, however far the plan is", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    Supervision supervision(target, signals);
+TEST_CASE_METHOD(TalkingRun, "a run ends on the line that the machine has come to, however far the plan is",
+                 "[supervision]") {
     CHECK(supervision.line() == 0);
     for (std::uint32_t i = 0; i < 8; ++i) { // two segments a line: 10, 20, 30, 40
         REQUIRE(supervision.submit(segment(i), 10 + i / 2 * 10));
@@ -56,9 +46,8 @@ TEST_CASE("a run ends on the line that the machine has come to, however far the 
     SECTION("within the third line") {
         target.executed = 5;
         request(1);
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "held; there, on line 30");
+        is_over();
+        fails("held; there, on line 30");
         CHECK(supervision.line() == 30);
         REQUIRE(supervision.places().size() == 1);
         CHECK(supervision.places()[0].axis == 1);
@@ -67,16 +56,14 @@ TEST_CASE("a run ends on the line that the machine has come to, however far the 
     }
     SECTION("before the first segment was executed") {
         request(1);
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "held; there, on line 10");
+        is_over();
+        fails("held; there, on line 10");
     }
     SECTION("at the end of a line a machine that goes on is on the next") {
         target.executed = 4;
         target.phase = hal::PortPhase::fault;
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(supervision.ending() == "a fault; there, on line 30");
+        is_over();
+        fails("a fault; there, on line 30");
     }
     SECTION("at the end") {
         target.executed = 8;
@@ -86,11 +73,9 @@ TEST_CASE("a run ends on the line that the machine has come to, however far the 
     }
 }
 
-TEST_CASE("the planner is ahead of a port that takes nothing by no more than is handed over", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "the planner is ahead of a port that takes nothing by no more than is handed over",
+                 "[supervision]") {
     target.takes = false;
-    Supervision supervision(target, signals);
     std::uint32_t i = 0;
     while (supervision.room()) {
         REQUIRE(supervision.submit(segment(i++)));
@@ -99,63 +84,46 @@ TEST_CASE("the planner is ahead of a port that takes nothing by no more than is 
     REQUIRE(comes([&] { return !target.told().empty(); }));
     request(1);
     CHECK_FALSE(supervision.submit(segment(i)));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "held; there");
+    fails("held; there");
     CHECK(target.told() == Told{"prepare", "hold", "finish"});
 }
 
-TEST_CASE("a signal is obeyed while the planner does nothing, the second one at once", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "a signal is obeyed while the planner does nothing, the second one at once",
+                 "[supervision]") {
     target.halts = false;
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    move();
     request(1);
     CHECK(comes([&] { return target.told().back() == "hold"; }));
     CHECK_FALSE(supervision.over());
     request(2);
-    CHECK(comes([&] { return supervision.over(); }));
+    is_over();
     CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop", "finish"});
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "stopped; there");
+    fails("stopped; there");
 }
 
-TEST_CASE("each request is passed on once, and a third signal asks for nothing more", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "each request is passed on once, and a third signal asks for nothing more",
+                 "[supervision]") {
     target.halts = target.stops = false;
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
-    const auto passes = [] { // twenty looks
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    };
+    move();
     request(1);
-    passes();
-    CHECK(target.told() == Told{"prepare", "segment 0", "hold"});
-    request(2);
-    passes();
-    request(3);
-    passes();
-    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop"});
+    stays({"prepare", "segment 0", "hold"});
+    for (const int more : {2, 3}) {
+        request(more);
+        stays({"prepare", "segment 0", "hold", "quick stop"});
+    }
     CHECK_FALSE(supervision.over());
     target.phase = hal::PortPhase::halted;
-    CHECK(comes([&] { return supervision.over(); }));
+    is_over();
     CHECK(supervision.ending() == "stopped; there");
 }
 
-TEST_CASE("two signals before the first look are a quick stop", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "two signals before the first look are a quick stop", "[supervision]") {
     target.halts = false;
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    move();
     // Two signals of different kinds are both pending, however late the watch is woken.
     REQUIRE(kill(getpid(), SIGTERM) == 0);
     REQUIRE(kill(getpid(), SIGHUP) == 0);
-    CHECK(comes([&] { return supervision.over(); }));
+    is_over();
     const Told told = target.told();
     REQUIRE(told.size() > 2);
     CHECK(told[told.size() - 2] == "quick stop");
@@ -163,50 +131,39 @@ TEST_CASE("two signals before the first look are a quick stop", "[supervision]")
     CHECK_FALSE(supervision.finish());
 }
 
-TEST_CASE("a signal before the first segment leaves the drives alone", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    Supervision supervision(target, signals);
+TEST_CASE_METHOD(TalkingRun, "a signal before the first segment leaves the drives alone", "[supervision]") {
     request(1);
-    REQUIRE(supervision.submit(segment(0)));
+    submit();
     CHECK_FALSE(supervision.finish());
     CHECK(target.told().empty());
     CHECK(supervision.ending() == "interrupted before anything was moved; the drives were not enabled");
 }
 
-TEST_CASE("what a target refuses or why it fails ends the run", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "what a target refuses or why it fails ends the run", "[supervision]") {
     SECTION("refused") {
         target.refusal = "refused";
     }
     SECTION("fault") {
         target.phase = hal::PortPhase::fault;
     }
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
-    CHECK(comes([&] { return supervision.over(); }));
+    submit();
+    is_over();
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == (target.refusal.empty() ? "a fault; there" : "refused; there"));
 }
 
-TEST_CASE("the planner learns that its plan is to be held, and the run ends where that ends", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
+TEST_CASE_METHOD(TalkingRun, "the planner learns that its plan is to be held, and the run ends where that ends",
+                 "[supervision]") {
     target.reason = "a limit acts";
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
+    submit();
     CHECK(comes([&] { return supervision.hold_asked(); }));
     CHECK_FALSE(supervision.over());
-    REQUIRE(supervision.submit(segment(1)));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "a limit acts; there");
+    submit(1);
+    fails("a limit acts; there");
 }
 
-TEST_CASE("a plan that ends while the axes move is never declared complete: they are held", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    Supervision supervision(target, signals);
+TEST_CASE_METHOD(TalkingRun, "a plan that ends while the axes move is never declared complete: they are held",
+                 "[supervision]") {
     FeedSegment moving = segment(0);
     moving.end_velocity[1] = 1;
     REQUIRE(supervision.submit(moving));
@@ -216,12 +173,9 @@ TEST_CASE("a plan that ends while the axes move is never declared complete: they
     CHECK(supervision.ending() == "the plan ended while the axes moved; held; there");
 }
 
-TEST_CASE("whatever a target throws, its axes are held and its run has the one end", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    Supervision supervision(target, signals);
-    REQUIRE(supervision.submit(segment(0)));
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
+TEST_CASE_METHOD(TalkingRun, "whatever a target throws, its axes are held and its run has the one end",
+                 "[supervision]") {
+    move();
     SECTION("once it moves") {
         target.breaks = true;
         CHECK_FALSE(supervision.finish());

@@ -115,4 +115,36 @@ bool comes(Condition condition) {
 
 using Told = std::vector<std::string>;
 
+struct NoOutput {
+    SignalWatch signals{{}};
+    TalkingTarget target;
+    std::unique_ptr<ProgramOutputs> outputs;
+};
+
+/// A run under supervision. No thread runs before the first segment.
+template <class Outputs>
+struct RunOf : Outputs {
+    void submit(std::uint32_t index = 0) { REQUIRE(supervision.submit(segment(index))); }
+    /// The target has the first segment.
+    void move() {
+        submit();
+        REQUIRE(comes([&] { return this->target.told().size() == 2; }));
+    }
+    /// After twenty looks it has been told no more than that.
+    void stays(const Told& told) const {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK(this->target.told() == told);
+    }
+    void is_over() {
+        REQUIRE(comes([&] { return supervision.over(); }));
+    }
+    void fails(const std::string& ending) {
+        CHECK_FALSE(supervision.finish());
+        CHECK(supervision.ending() == ending);
+    }
+
+    Supervision supervision{this->target, this->signals, this->outputs.get()};
+};
+using TalkingRun = RunOf<NoOutput>;
+
 } // namespace splinefeed_test

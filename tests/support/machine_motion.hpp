@@ -84,6 +84,17 @@ inline Motion there(double velocity, double acceleration, unsigned axis = 0) {
     return motion_of(integrated(list), axis);
 }
 
+// The first motion, and that of axis 1 of the second one, which takes as long.
+inline Motion both(Motion first, const Motion& second) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        first[i].start[1] = second.at(i).start[1];
+        first[i].end[1] = second[i].end[1];
+        first[i].start_velocity[1] = second[i].start_velocity[1];
+        first[i].end_velocity[1] = second[i].end_velocity[1];
+    }
+    return first;
+}
+
 // A raw segment of axis 0 from rest at 0 to `end_mm`, `duration` long.
 inline FeedSegment stroke(double end_mm, std::uint32_t duration, std::int64_t end_velocity = 0) {
     FeedSegment segment;
