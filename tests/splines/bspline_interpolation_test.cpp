@@ -103,7 +103,7 @@ TEMPLATE_TEST_CASE("end derivatives: the curve has them, and the control points 
                     for (unsigned k = 0; k < 2; ++k) {
                         const Real off = std::abs(static_cast<Real>(to_double(curve.controls[i][k])) - b[i][k]);
                         const Real ulp = std::same_as<S, Fixed> ? 0x1p-28L : rounding<S> * 100.0L;
-                        REQUIRE(off <= condition * ulp * degree);
+                        REQUIRE(static_cast<double>(off) <= static_cast<double>(condition * ulp * degree));
                     }
                 }
                 const CurveJet<S> first = curve.at(curve.parameters.front());
@@ -112,6 +112,86 @@ TEMPLATE_TEST_CASE("end derivatives: the curve has them, and the control points 
                 REQUIRE(to_double(first.first[0]) / h == Approx(1.0).epsilon(tolerance));
                 REQUIRE(to_double(first.first[1]) / h == Approx(-2.0).epsilon(tolerance));
                 REQUIRE(std::abs(to_double(curve.at(curve.parameters.back()).first[0])) <= tolerance);
+            }
+        }
+    }
+}
+
+TEST_CASE("knots at the data and end derivatives in degree 3: the clamped cubic spline", "[splines]") {
+    // Its slopes by the tridiagonal system of Hermite cubics.
+    std::mt19937_64 random(17);
+    for (int round = 0; round < 20; ++round) {
+        Job job;
+        job.points = random_points(random, 8, 1, 10.0);
+        job.kind = {3, false, true};
+        job.rule = KnotRule::params;
+        job.domain = 7.0;
+        job.start = {1.5};
+        job.end = {-0.5};
+        const Curve<double> curve = interpolated<double>(job);
+        REQUIRE(curve.error == Error::none);
+        Matrix a(8, std::vector<Real>(8));
+        Matrix b(8, std::vector<Real>(1));
+        const auto h = [&](std::size_t i) {
+            return static_cast<Real>(curve.parameters[i + 1U] - curve.parameters[i]);
+        };
+        const auto e = [&](std::size_t i) {
+            return static_cast<Real>(job.points[i + 1U][0]) - static_cast<Real>(job.points[i][0]);
+        };
+        a[0][0] = a[7][7] = 1.0L;
+        b[0][0] = 1.5L;
+        b[7][0] = -0.5L;
+        for (std::size_t i = 1; i < 7; ++i) {
+            a[i][i - 1U] = h(i);
+            a[i][i] = 2.0L * (h(i - 1U) + h(i));
+            a[i][i + 1U] = h(i - 1U);
+            b[i][0] = 3.0L * (h(i) / h(i - 1U) * e(i - 1U) + h(i - 1U) / h(i) * e(i));
+        }
+        dense_solve(a, b);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const CurveJet<double> jet = curve.at(curve.parameters[i]);
+            REQUIRE(jet.first[0] / jet.span_length ==
+                    Approx(static_cast<double>(b[i][0])).epsilon(1e-11).margin(1e-11));
+        }
+    }
+}
+
+TEST_CASE("polynomials of degree k are reproduced", "[splines]") {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int degree = 1; degree <= 9; ++degree) {
+        std::vector<double> coefficients;
+        for (int i = 0; i <= degree; ++i) {
+            coefficients.push_back(unit(random));
+        }
+        const auto value = [&](double t, bool slope) {
+            double sum = 0.0;
+            for (int i = degree; i >= (slope ? 1 : 0); --i) {
+                sum = sum * t + coefficients[static_cast<std::size_t>(i)] * (slope ? i : 1);
+            }
+            return sum;
+        };
+        for (const bool ends : {false, true}) {
+            if (ends && degree < 2) {
+                continue;
+            }
+            Job job;
+            double t = 0.0;
+            for (int i = 0; i < 16; ++i) {
+                job.parameters.push_back(t / 16.0);
+                job.points.push_back({value(t / 16.0, false)});
+                t += 0.25 + std::abs(unit(random));
+            }
+            job.kind = {degree, false, ends};
+            job.rule = ends ? KnotRule::average_tangents : KnotRule::average;
+            job.start = {value(0.0, true)};
+            job.end = {value(job.parameters.back(), true)};
+            const Curve<double> curve = interpolated<double>(job);
+            REQUIRE(curve.error == Error::none);
+            for (int i = 0; i <= 100; ++i) {
+                const double at = job.parameters.back() * i / 100.0;
+                CAPTURE(degree, ends, at);
+                REQUIRE(curve.at(at).position[0] == Approx(value(at, false)).epsilon(1e-10).margin(1e-10));
             }
         }
     }

@@ -7,8 +7,8 @@ namespace splinefeed {
 
 namespace {
 
-constexpr char radius = '@';
-constexpr char angle = '^';
+constexpr char polar_radius = '@';
+constexpr char polar_angle = '^';
 
 Decimal stretched(Decimal value, Decimal to, Decimal from) noexcept {
     return {product_quotient(value.raw, to.raw, static_cast<std::uint64_t>(from.raw)).raw};
@@ -33,8 +33,8 @@ bool is_suited(const Block& block, const ModalState& modal, const AxisLetters& l
 } // namespace
 
 BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters& letters, PlanePoint from) noexcept {
-    const bool has_radius = block.has(radius);
-    const bool has_angle = block.has(angle);
+    const bool has_radius = block.has(polar_radius);
+    const bool has_angle = block.has(polar_angle);
     if (!has_radius && !has_angle) {
         return {};
     }
@@ -43,10 +43,10 @@ BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters
     const bool incremental = distance == Block::no_code ? modal.incremental : distance == 910;
     ModalState lengths = modal;
     lengths.inches = units == Block::no_code ? modal.inches : units == 200;
-    const Decimal stated = lengths.in_mm(block.value(radius));
+    const Decimal stated = lengths.in_mm(block.value(polar_radius));
     const Decimal before = hypotenuse(from.first, from.second);
     const bool needs_direction = incremental || !has_angle;
-    const char word = has_radius ? radius : angle;
+    const char word = has_radius ? polar_radius : polar_angle;
     if (!is_suited(block, modal, letters, incremental) || (needs_direction && before.raw == 0)) {
         return block.at(ProgramError::polar_unsuited, word);
     }
@@ -57,7 +57,7 @@ BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters
     } else if (!needs_direction) {
         to = {has_radius ? stated : before, {}};
     }
-    to = has_angle ? rotated(to, block.value(angle)) : to;
+    to = has_angle ? rotated(to, block.value(polar_angle)) : to;
     if (incremental) {
         to = {to.first - from.first, to.second - from.second};
     }
