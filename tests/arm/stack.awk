@@ -22,9 +22,8 @@ BEGIN {
     # A call asks for those of the method that it names.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
     in_float = "INS_5FixedEfE"
-    served = "(4cell|5clear|5steer|6replan|7advance|7prepare|7rest_at|8standing)E"
-    plan = jerk ? "^_ZNK?10splinefeed8JerkPlan" in_float served "|^_ZN10splinefeed10MotionPlan" of "6replanE" \
-                : "^_ZNK?10splinefeed8FeedPlan" of served
+    served = "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
+    plan = "^_ZNK?10splinefeed8" (jerk ? "JerkPlan" in_float : "FeedPlan" of) served
     sampler = "^_ZNK?10splinefeed14ProfileSampler" of "(4next|5clear|7at_rest)E"
     planner = "^_ZNK?10splinefeed" (jerk ? "11JerkPlanner" in_float : "19AccelerationPlanner" of) "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \

@@ -40,6 +40,13 @@ struct PlanState {
     S time_share{}; ///< fraction of the profile segment's time
 };
 
+/// What became of a change of the steering.
+enum class Steered : std::uint8_t {
+    busy, ///< the budget is spent
+    changed,
+    unchanged ///< the profile segment stays as it is, for instance where the place is its end, to rounding
+};
+
 /// What the plan does while the input is starved.
 enum class UnderrunPolicy : std::uint8_t {
     wait, ///< it asks for more input: the plan does not depend on when the input comes
@@ -72,14 +79,9 @@ public:
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
-    /// Does what steer() needs and what does not depend on the place. false: the budget is spent; call again. A plan
-    /// that cannot be computed in parts has nothing to do here.
-    virtual bool replan(WorkBudget& /*work*/) noexcept { return true; }
     /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
-    /// the change applies from the next profile segment on. false: the profile segment stays as it is, for instance
-    /// where the place is its end, to rounding.
-    /// @pre the last replan() answered true
-    virtual bool steer(const PlanState<S>& place) noexcept = 0;
+    /// the change applies from the next profile segment on. `busy`: call again, with the same place.
+    virtual Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell, for a new program. @pre standing()

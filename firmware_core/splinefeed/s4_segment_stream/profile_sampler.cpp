@@ -101,9 +101,9 @@ void ProfileSampler<S>::rest() noexcept {
     resting_ = true;
 }
 
-// Chooses the profile segment from the place of the last control point.
+// Chooses the profile segment from the place of the last control point. false: the budget is spent.
 template <Scalar S>
-void ProfileSampler<S>::follow_steering() noexcept {
+bool ProfileSampler<S>::follow_steering(WorkBudget& work) noexcept {
     const S v0 = square_root(plan_->profile_segment().entry_sq);
     const S v1 = square_root(plan_->profile_segment().exit_sq);
     const S share = motion_.share_of(elapsed_);
@@ -113,14 +113,16 @@ void ProfileSampler<S>::follow_steering() noexcept {
     if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
         speed = braked(x, speed);
     }
-    if (!plan_->steer({.fraction = x, .speed_sq = speed * speed, .time_share = share})) {
-        return;
+    const Steered steered = plan_->steer({.fraction = x, .speed_sq = speed * speed, .time_share = share}, work);
+    if (steered != Steered::changed) {
+        return steered != Steered::busy;
     }
     elapsed_ = S{};
     in_segment_ = false;
     if (plan_->standing()) {
         rest(); // so slow that the last control point is the stop
     }
+    return true;
 }
 
 // Whether a second difference of the samples keeps the acceleration of an axis.
@@ -205,12 +207,11 @@ bool ProfileSampler<S>::arrive() noexcept {
 // An underrun may interrupt it anywhere; it continues where it was.
 template <Scalar S>
 Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
-    if (in_segment_ && !advanced_ && (replans_ || plan_->steering().pending())) {
-        replans_ = !plan_->replan(work);
-        if (replans_) {
+    if (in_segment_ && !advanced_ && (steers_ || plan_->steering().pending())) {
+        steers_ = !follow_steering(work);
+        if (steers_) {
             return Pull::busy;
         }
-        follow_steering();
     }
     if (repeats_ > 0) {
         --repeats_;

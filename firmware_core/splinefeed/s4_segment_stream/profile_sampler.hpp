@@ -22,7 +22,7 @@ public:
 
 private:
     Pull enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept;
-    void follow_steering() noexcept;
+    bool follow_steering(WorkBudget& work) noexcept;
     [[nodiscard]] S braked(S x, S speed) const noexcept;
     bool arrive() noexcept;
     void rest() noexcept;
@@ -49,7 +49,7 @@ private:
     bool resting_ = false; // the last three samples are equal
     bool in_segment_ = false;
     bool advanced_ = false; // elapsed_ already holds the next sample's time
-    bool replans_ = false;  // the plan is about to follow the steering
+    bool steers_ = false;   // the plan is about to follow the steering
 };
 
 } // namespace splinefeed

@@ -317,9 +317,12 @@ bool FeedPlan<S>::replan(WorkBudget& work) noexcept {
 }
 
 template <Scalar S>
-bool FeedPlan<S>::steer(const PlanState<S>& place) noexcept {
+Steered FeedPlan<S>::steer(const PlanState<S>& place, WorkBudget& work) noexcept {
+    if (!replan(work)) {
+        return Steered::busy;
+    }
     if (!(place.fraction < profile_segment_.stretch.to)) {
-        return false; // nothing of it is left to be travelled in another way
+        return Steered::unchanged; // nothing of it is left to be travelled in another way
     }
     const bool whole_path = profile_segment_.stretch.to == from_integer<S>(1);
     const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
@@ -329,7 +332,7 @@ bool FeedPlan<S>::steer(const PlanState<S>& place) noexcept {
     if (speed_sq_ > S{} || !steering_.stops()) {
         forward_step(known);
     }
-    return true;
+    return Steered::changed;
 }
 
 template <Scalar S>

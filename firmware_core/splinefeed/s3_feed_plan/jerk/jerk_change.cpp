@@ -1,34 +1,38 @@
 // SPDX-License-Identifier: MIT
 //
-// A motion to standstill at a given place is a leg (jerk_leg.cpp), planned over pieces of the cells ahead. The pieces
-// are short enough for the change of the speed, and next to the standstill they are graded like cells next to stops.
-// The nearest place for which such a leg exists is found by bisection: if a stop is possible at a place, it is possible
-// beyond it, with more room.
+// A change is a leg of its own (leg_plan.cpp), planned over pieces of the cells ahead. The pieces are short enough for
+// the change of the speed, and next to the standstill they are graded like cells next to stops.
 //
-// For a lower speed, the caps of the cells change from some place on: the nearest one for which a leg exists. That leg
-// ends at standstill, as far beyond that place as braking from the wanted speed takes, so that a leg exists for the
-// rest of the path, too. Before that place the caps stay as they were. For a higher speed the place is where the
-// machine is.
+// First the motion that brakes as hard as it can is solved for, from the plan in force on. For a hold it tells the
+// nearest place of a standstill: that of the node where b is so small that the rest of the way is shortest. The leg
+// that is adopted is the fastest one to that place, or to a place a little farther away if there is none.
+//
+// For a lower speed, the caps of the cells are what is wanted, but not below that motion: so there is a leg. For a
+// higher speed the caps are what is wanted.
 #include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 
 #include "splinefeed/s2_arc_length/cell_part.hpp"
+
+#include <iterator>
 
 namespace splinefeed {
 
 namespace {
 
 constexpr double pieces = 8.0;              // in the braking distance, at least
+constexpr double pieces_to_brake = 24.0;    // the same, for the motion that tells where a standstill is possible
 constexpr double next_to_rest = 1.0 / 48.0; // of the longest piece
 constexpr double part_before = 0.4;         // longest piece before the standstill, of the distance to it
 constexpr double part_from_start = 0.6;     // longest piece after a start, of the distance from it
 constexpr double sliver = 1e-3;             // of a piece: a shorter part is not split off
 constexpr double longer = 1.25;             // pieces, if there is no room for all of them
 constexpr double part_behind = 0.6;         // longest piece after the standstill, of the distance from it
-constexpr double far_behind = 10.0;         // the same, for the second attempt when the window has little room
-constexpr double late = 1.4;                // times the expected distance: the standstill is late
-constexpr double close = 0.004;             // relative error of a distance that is close enough
-constexpr double farther = 1.4;             // than a guess that was too near
-constexpr double roomy = 1.5;               // of what braking needs, if it need not be the least
+constexpr double far_behind = 10.0;         // the same, for another attempt when the window has little room
+constexpr double far = 2.5;                 // times the expected distance: so far braking is looked at
+constexpr double slow_part = 0.04;          // of the square of the speed that is braked from, for that place
+constexpr double left_to_brake = 2.0;       // times the speed's square that a node may have beside a standstill
+constexpr double farther[] = {1.03, 1.06, 1.1, 1.2, 1.4, 1.8, 2.5, 4.0, 8.0}; // than the place that braking tells
+constexpr double roomy = 1.5; // of what braking needs, if it need not be the least
 constexpr int most_steps = 40;
 
 } // namespace
@@ -48,6 +52,11 @@ JerkChange<S, R>::JerkChange(JerkWindow<S, R>& window, double from, const SpeedS
             break;
         }
     }
+    const double v = square_root(state_.b);
+    const double a = 0.5 * larger(state_.slope, 0.0);
+    const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
+    guess_mm_ = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S, R>::shortest_mm);
+    rest_mm_ = guess_mm_;
 }
 
 // The distance from one steady speed to another, with constant limits along the path.
@@ -123,10 +132,8 @@ void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& v
             const double longest =
                 larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_from_start * (start_mm_ + at_mm)));
             double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
-            for (const double mark : {cuts.change_mm, cuts.end_mm}) {
-                if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // no short piece is left before it
-                    piece = at_mm + piece > mark ? mark - at_mm : 0.5 * (mark - at_mm);
-                }
+            if (at_mm < cuts.end_mm - least && at_mm + 1.5 * piece > cuts.end_mm) { // no short piece is left before it
+                piece = at_mm + piece > cuts.end_mm ? cuts.end_mm - at_mm : 0.5 * (cuts.end_mm - at_mm);
             }
             piece = left - piece < larger(least, sliver * piece) ? left : piece;
             const double to = piece < left ? from + piece / length : 1.0;
@@ -141,69 +148,64 @@ void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& v
 
 // Uses longer pieces if the window has too little room for all of them.
 template <Scalar S, Floating R>
-bool JerkChange<S, R>::fit(Cuts& cuts) noexcept {
+bool JerkChange<S, R>::fit(WorkBudget& work) noexcept {
     for (int step = 0; step < most_steps; ++step) {
         pieces_ = cells_ = 0;
+        fits_ = step == 0;
         const std::size_t most = window_->longest_leg() + window_->size();
-        each_piece(cuts, 0, [&](std::size_t i, double, double, double) {
+        each_piece(cuts_, 0, [&](std::size_t i, double, double, double) {
             ++pieces_;
             cells_ = i + 1;
             return pieces_ < most;
         });
+        work.charge(static_cast<unsigned>(pieces_));
         if (pieces_ <= cells_ + window_->room() && pieces_ <= window_->longest_leg()) {
             return true;
         }
-        cuts.coarsest_mm *= longer;
-        cuts.finest_mm *= longer;
+        cuts_.coarsest_mm *= longer;
+        cuts_.finest_mm *= longer;
     }
     return false;
 }
 
-// Plans the leg to cuts.end_mm.
+// Builds the leg to the end of the cuts. @param wanted  the caps are those that are wanted
 template <Scalar S, Floating R>
-bool JerkChange<S, R>::attempt(const Cuts& cuts) noexcept {
-    const double least = least_mm(cuts);
-    std::size_t changed = 0;
+bool JerkChange<S, R>::lay(WorkBudget& work, bool wanted) noexcept {
+    if (!(cuts_.end_mm > 0.0) || !fit(work)) {
+        return false;
+    }
+    const double least = least_mm(cuts_);
     bool known = true; // up to here the old plan has a motion
     leg_.begin(state_);
-    each_piece(cuts, 0, [&](std::size_t i, double from, double to, double at_mm) {
-        if (at_mm >= cuts.end_mm - least) {
+    each_piece(cuts_, 0, [&](std::size_t i, double from, double to, double at_mm) {
+        if (at_mm >= cuts_.end_mm - least) {
             return false;
         }
         const JerkNode<R>& whole = window_->node(i);
-        const bool before = at_mm < cuts.change_mm - least;
-        const R cap = before ? whole.cap_sq : whole.wanted_sq;
         const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        leg_.add(window_->limits_of(part, cap),
+        leg_.add(window_->limits_of(part, wanted ? whole.wanted_sq : whole.cap_sq),
                  whole.at_most_sq + static_cast<R>(to) * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
         known = known && knows(i);
         if (known) {
             const SpeedState state = known_state(i, from);
             leg_.know(static_cast<R>(state.b + 0.5 * state.slope * (to - from) * to_double(whole.length_mm)));
         }
-        changed += before ? 1U : 0U;
         return true;
     });
-    if (leg_.cells() < LegPlan<R>::fewest_cells || !leg_.fastest()) {
-        return false;
-    }
-    seconds_ = leg_.seconds();
-    planned_ = leg_.cells();
-    changed_ = changed > 0 ? changed : 1;
-    return true;
+    return leg_.cells() >= LegPlan<R>::fewest_cells;
 }
 
-// Splits the cells of the window, and gives them the motion of the last attempt.
+// Splits the cells of the window, and gives them the motion of the leg.
 template <Scalar S, Floating R>
-void JerkChange<S, R>::adopt(const Cuts& cuts) noexcept {
-    const double least = least_mm(cuts);
+void JerkChange<S, R>::adopt() noexcept {
+    planned_ = leg_.cells();
     const std::size_t more = pieces_ - cells_;
     window_->open(0, more); // no piece comes after the present place of its cell
     Cell<S> whole;
     JerkNode<R> start;
     R at_end{};
     std::size_t n = 0;
-    each_piece(cuts, more, [&](std::size_t i, double from, double to, double at_mm) {
+    each_piece(cuts_, more, [&](std::size_t i, double from, double to, double) {
         if (n == 0 || from == 0.0) {
             whole = window_->cell(i + more);
             start = window_->node(i + more);
@@ -213,7 +215,7 @@ void JerkChange<S, R>::adopt(const Cuts& cuts) noexcept {
         JerkNode<R>& node = window_->node(n);
         node = start;
         node.length_mm = to_floating<R>(window_->cell(n).length_mm);
-        node.cap_sq = at_mm < cuts.change_mm - least ? start.cap_sq : start.wanted_sq;
+        node.cap_sq = rests_ || n < changed_ ? start.cap_sq : start.wanted_sq;
         node.at_most_sq = start.at_most_sq + static_cast<R>(from) * (at_end - start.at_most_sq);
         node.travel = Travel::curve;
         ++n;
@@ -224,100 +226,156 @@ void JerkChange<S, R>::adopt(const Cuts& cuts) noexcept {
         window_->node(i).middle_sq = middle_sq;
     });
     window_->node(planned_).b = 0.0;
-    for (std::size_t i = n; i < window_->size(); ++i) {
-        JerkNode<R>& node = window_->node(i);
-        node.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cap_sq;
+    for (std::size_t i = n; i < window_->size() && !rests_; ++i) {
+        window_->node(i).cap_sq = window_->node(i).wanted_sq;
     }
 }
 
-// Finds the smallest distance for which a motion exists. 0: none.
 template <Scalar S, Floating R>
-template <class CutsAt>
-double JerkChange<S, R>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
-    const auto possible_at = [&](double distance_mm) {
-        Cuts cuts = cuts_at(distance_mm);
-        return possible(cuts);
-    };
-    double low = 0.0;
-    double high = smaller(guess_mm, known_mm_);
-    while (!possible_at(high)) {
-        if (!(high < known_mm_)) {
-            return 0.0;
-        }
-        low = high;
-        high = smaller(high * farther, known_mm_);
+void JerkChange<S, R>::brake(WorkBudget& work) noexcept {
+    if (lay(work, false)) {
+        leg_.brake();
+        stage_ = Stage::brake;
+    } else if (rests_) {
+        attempt_rest(work);
+    } else {
+        stage_ = Stage::none;
     }
-    while (high - low > close * high) {
-        const double middle = 0.5 * (low + high);
-        (possible_at(middle) ? high : low) = middle;
-    }
-    // The nearest place leaves no room to brake as hard as possible: a place slightly farther away may be reached
-    // sooner.
-    double best = high;
-    auto least_s = largest<double>();
-    for (const double more : {1.0, 1.005, 1.01, 1.02, 1.04, 1.08}) {
-        const double distance = smaller(high * more, known_mm_);
-        if (possible_at(distance) && seconds_ < least_s) {
-            least_s = seconds_;
-            best = distance;
+}
+
+// Below the speed v = a^2 / (2 j) the last phase of a straight move leads to standstill, with b growing with s^(4/3).
+template <Scalar S, Floating R>
+double JerkChange<S, R>::nearest_rest_mm() const noexcept {
+    const R slow = static_cast<R>(0.5 * along_.acceleration_mm_s2 * along_.acceleration_mm_s2 / along_.jerk_mm_s3);
+    const R per = R(1) / power_two_thirds(static_cast<R>(4.5 * along_.jerk_mm_s3));
+    auto nearest = largest<R>();
+    R at_mm{};
+    for (std::size_t i = 1; i + 1 < leg_.cells(); ++i) {
+        at_mm += leg_.length_mm(i - 1);
+        if (leg_.b(i) < larger(slow * slow, R(slow_part) * leg_.b(0))) {
+            const R root = detail::hardware_square_root(R(left_to_brake) * leg_.b(i) * per);
+            nearest = smaller(nearest, at_mm + root * detail::hardware_square_root(root));
         }
     }
-    return best;
+    return nearest < largest<R>() ? static_cast<double>(nearest) : guess_mm_;
 }
 
-// Plans the result of nearest() once more, and adopts it.
+// Another place for a standstill. The machine starts again in the cells behind it, and later changes of the steering
+// need short cells there. But a window that is small, or was split before, may not have room for these and for the
+// cells in which it has to stop.
 template <Scalar S, Floating R>
-bool JerkChange<S, R>::take(Cuts cuts) noexcept {
-    if (!(cuts.end_mm > 0.0) || !possible(cuts)) {
-        return false;
+void JerkChange<S, R>::attempt_rest(WorkBudget& work) noexcept {
+    for (; attempts_ < 2 * std::size(farther); ++attempts_) {
+        const bool second = attempts_ % 2 == 1;
+        const double end_mm = smaller(rest_mm_ * farther[attempts_ / 2], known_mm_);
+        if ((second && fits_) || (attempts_ > 1 && !second && !(rest_mm_ * farther[attempts_ / 2 - 1] < known_mm_))) {
+            continue;
+        }
+        const double longest = guess_mm_ / pieces;
+        cuts_ = {end_mm, end_mm + guess_mm_, longest, larger(longest * next_to_rest, JerkWindow<S, R>::shortest_mm),
+                 second ? far_behind : part_behind};
+        if (lay(work, false)) {
+            leg_.search();
+            stage_ = Stage::attempt;
+            ++attempts_;
+            return;
+        }
+        fits_ = false;
     }
-    adopt(cuts);
-    return true;
+    stage_ = Stage::none;
 }
 
+// First with the caps that are wanted, if the machine is not faster; then with a motion that brakes.
 template <Scalar S, Floating R>
-bool JerkChange<S, R>::to_rest() noexcept {
+void JerkChange<S, R>::attempt_wanted(WorkBudget& work) noexcept {
+    const double wanted_sq = to_double(window_->node(0).wanted_sq);
     const double v = square_root(state_.b);
-    const double a = 0.5 * larger(state_.slope, 0.0);
-    const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
-    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S, R>::shortest_mm);
-    const auto cuts_at = [&](double end_mm, double behind) {
-        const double longest = guess / pieces;
-        const double finest = larger(longest * next_to_rest, JerkWindow<S, R>::shortest_mm);
-        return Cuts{end_mm, largest<double>(), end_mm + guess, longest, finest, behind};
-    };
-    const auto nearest_rest = [&](double behind) {
-        return nearest(guess, [&](double end_mm) { return cuts_at(end_mm, behind); });
-    };
-    // The machine starts again in the cells after the standstill, and later changes of the steering need short cells
-    // there. But a window that is small, or was split before, may not have room for these and for the cells in which it
-    // has to stop.
-    const double rest_mm = nearest_rest(part_behind);
-    if (!(rest_mm > 0.0) || rest_mm > late * guess) {
-        const double nearer_mm = nearest_rest(far_behind);
-        if (nearer_mm > 0.0 && (!(rest_mm > 0.0) || nearer_mm < rest_mm)) {
-            return take(cuts_at(nearer_mm, far_behind));
-        }
-    }
-    return rest_mm > 0.0 && take(cuts_at(rest_mm, part_behind));
-}
-
-template <Scalar S, Floating R>
-bool JerkChange<S, R>::to_wanted() noexcept {
-    const double v = square_root(state_.b);
-    const double wanted = square_root(window_->node(0).wanted_sq);
+    const double wanted = square_root(wanted_sq);
     const double ramp = ramp_mm(v, wanted);
     const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S, R>::shortest_mm);
     const double stop = roomy * ramp_mm(larger(v, wanted), 0.0);
-    const auto cuts_at = [&](double change_mm) {
-        return Cuts{
-            smaller(change_mm + ramp + stop, known_mm_), change_mm, change_mm + ramp, longest, longest, part_behind};
-    };
-    if (take(cuts_at(0.0))) {
-        return true;
+    cuts_ = {smaller(ramp + stop, known_mm_), ramp, longest, longest, part_behind};
+    ++attempts_;
+    if (attempts_ == 1 && state_.b <= wanted_sq && lay(work, true)) {
+        leg_.search();
+        stage_ = Stage::attempt;
+    } else if (attempts_ <= 2) {
+        attempts_ = 2;
+        brake(work);
+    } else {
+        stage_ = Stage::none;
     }
-    const double change_mm = nearest(larger(ramp, longest), cuts_at);
-    return change_mm > 0.0 && take(cuts_at(change_mm));
+}
+
+// Caps that allow the motion that brakes. The cells in which it is faster than what is wanted belong to the change.
+template <Scalar S, Floating R>
+void JerkChange<S, R>::follow_braking() noexcept {
+    changed_ = 1;
+    std::size_t n = 0;
+    R before{};
+    R here{};
+    const auto cap = [&](R next) { // of piece n - 1, between its neighbours
+        changed_ = leg_.middle_sq(n - 1) > here ? n : changed_;
+        leg_.cap(n - 1, smaller(smaller(before, here), next));
+        before = here;
+        here = next;
+    };
+    each_piece(cuts_, 0, [&](std::size_t i, double, double, double) {
+        const R wanted_sq = window_->node(i).wanted_sq;
+        if (n == 0) {
+            before = here = wanted_sq;
+        } else {
+            cap(wanted_sq);
+        }
+        return ++n < leg_.cells();
+    });
+    cap(here);
+    leg_.search();
+    stage_ = Stage::attempt;
+}
+
+template <Scalar S, Floating R>
+void JerkChange<S, R>::to_rest(WorkBudget& work) noexcept {
+    rests_ = true;
+    const double longest = larger(guess_mm_ / pieces_to_brake, JerkWindow<S, R>::shortest_mm);
+    const double end_mm = smaller(far * guess_mm_, known_mm_);
+    cuts_ = {end_mm, end_mm, longest, longest, part_behind};
+    brake(work);
+}
+
+template <Scalar S, Floating R>
+void JerkChange<S, R>::to_wanted(WorkBudget& work) noexcept {
+    rests_ = false;
+    attempt_wanted(work);
+}
+
+template <Scalar S, Floating R>
+Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
+    while (stage_ != Stage::none) {
+        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+            return Search::running;
+        }
+        const Search found = leg_.step();
+        if (found == Search::running) {
+            continue;
+        }
+        if (stage_ == Stage::brake) {
+            if (!rests_ && found == Search::found) {
+                follow_braking();
+                continue;
+            }
+            rest_mm_ = rests_ && found == Search::found ? nearest_rest_mm() : guess_mm_;
+        } else if (found == Search::found) {
+            adopt();
+            return Search::found;
+        }
+        if (rests_) {
+            attempt_rest(work);
+        } else {
+            attempt_wanted(work);
+        }
+    }
+    return Search::none;
 }
 
 template class JerkChange<double, double>;

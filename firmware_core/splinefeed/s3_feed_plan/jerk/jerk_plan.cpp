@@ -132,45 +132,62 @@ bool JerkPlan<S, R>::change_line(double from, const SpeedState& state) noexcept 
 }
 
 template <Scalar S, Floating R>
-bool JerkPlan<S, R>::change_curve(double from, const SpeedState& state) noexcept {
-    JerkChange<S, R> change(window_, from, state, plan_.planned());
-    if (!(steering_.stops() ? change.to_rest() : change.to_wanted())) {
-        return false;
+Search JerkPlan<S, R>::change_curve(double from, const SpeedState& state, WorkBudget& work) noexcept {
+    if (!changing_) {
+        change_ = JerkChange<S, R>(window_, from, state, plan_.planned());
+        if (steering_.stops()) {
+            change_.to_rest(work);
+        } else {
+            change_.to_wanted(work);
+        }
+        changing_ = true;
     }
-    plan_.take(change.planned(), change.changed());
-    plan_.outdate();
-    return true;
+    const Search search = change_.search(work);
+    changing_ = search == Search::running;
+    if (search == Search::found) {
+        plan_.take(change_.planned(), steering_.stops() ? change_.planned() : change_.changed());
+        plan_.outdate();
+    }
+    return search;
 }
 
 // A change of the steering while the machine moves. If no other motion is found, the plan stays until there is one from
 // where a later profile segment starts; the plan of a stop is travelled to its end, a standstill.
 template <Scalar S, Floating R>
-bool JerkPlan<S, R>::answer(double from, const SpeedState& state) noexcept {
-    if (state.b < JerkWindow<S, R>::slowest_sq) {
-        return false; // later: it has just started, or is about to stop
+Search JerkPlan<S, R>::answer(double from, const SpeedState& state, WorkBudget& work) noexcept {
+    if (steering_.pending() || !changing_) {
+        changing_ = false;
+        if (state.b < JerkWindow<S, R>::slowest_sq) {
+            return Search::none; // later: it has just started, or is about to stop
+        }
+        want();
+        window_.forget_travelled();
+        if (halt_ > 0) {
+            window_.cell(halt_ - 1).stop_at_end = false;
+        }
     }
-    want();
-    window_.forget_travelled();
-    if (halt_ > 0) {
-        window_.cell(halt_ - 1).stop_at_end = false;
-    }
-    const bool stops = steering_.stops();
     const bool on_line = !line_.done();
     const double travelled_mm = from * to_double(window_.node(0).length_mm);
-    const bool found = on_line ? change_line(from, state) : change_curve(from, state);
-    unanswered_ = !found;
-    if (!found) {
+    const Search search = !on_line                   ? change_curve(from, state, work)
+                          : change_line(from, state) ? Search::found
+                                                     : Search::none;
+    if (search == Search::running) {
+        return search;
+    }
+    unanswered_ = search == Search::none;
+    retries_ = false;
+    if (unanswered_) {
         if (halt_ > 0) {
             window_.cell(halt_ - 1).stop_at_end = true;
         }
-        plan_.commit(stops ? plan_.planned() : plan_.committed());
-        return false;
+        plan_.commit(steering_.stops() ? plan_.planned() : plan_.committed());
+        return search;
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
     profile_segment_.stretch.from = from_double<S>(on_line_mm_ / to_double(window_.node(0).length_mm));
     halt_ = 0;
-    if (stops) {
+    if (steering_.stops()) {
         plan_.commit(plan_.planned());
         if (!window_.cell(plan_.planned() - 1).stop_at_end) {
             halt_ = plan_.planned();
@@ -179,30 +196,32 @@ bool JerkPlan<S, R>::answer(double from, const SpeedState& state) noexcept {
             last.position_at(from_integer<S>(1), last.end);
         }
     }
-    return true;
+    return search;
 }
 
 template <Scalar S, Floating R>
-bool JerkPlan<S, R>::steer(const PlanState<S>& place) noexcept {
+Steered JerkPlan<S, R>::steer(const PlanState<S>& place, WorkBudget& work) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
-    if (line_.done() &&
-        (left < least_part || left * to_double(window_.node(0).length_mm) < JerkWindow<S, R>::shortest_mm)) {
-        return false; // it is tried again with the next profile segment
+    const double length_mm = to_double(window_.node(0).length_mm);
+    if (line_.done() && (left < least_part || left * length_mm < JerkWindow<S, R>::shortest_mm)) {
+        return Steered::unchanged; // it is tried again with the next profile segment
     }
-    if (!answer(from, state_on(profile_segment_, window_.node(0).length_mm, from, to_double(place.time_share)))) {
-        return false;
+    switch (answer(from, state_on(profile_segment_, length_mm, from, to_double(place.time_share)), work)) {
+    case Search::running: return Steered::busy;
+    case Search::none: return Steered::unchanged;
+    case Search::found: break;
     }
     chosen_ = false;
-    return true;
+    return Steered::changed;
 }
 
-// Called before a profile segment is chosen.
+// Called before a profile segment is chosen. false: the budget is spent.
 template <Scalar S, Floating R>
-void JerkPlan<S, R>::follow_steering() noexcept {
+bool JerkPlan<S, R>::follow_steering(WorkBudget& work) noexcept {
     plan_.cancel();
     if (standing()) {
-        unanswered_ = false;
+        unanswered_ = retries_ = changing_ = false;
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
             JerkNode<R>& node = window_.node(i);
@@ -210,14 +229,14 @@ void JerkPlan<S, R>::follow_steering() noexcept {
         }
         plan_.take(0, 0);
         plan_.outdate();
-    } else if (line_.done()) {
-        const SpeedState state = window_.state(0); // the node moves
-        static_cast<void>(answer(0.0, state));
-    } else {
-        const MoveState& state = line_.reached();
-        static_cast<void>(answer(to_double(profile_segment_.stretch.from),
-                                 {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}));
+        return true;
     }
+    if (line_.done()) {
+        return answer(0.0, window_.state(0), work) != Search::running; // the node moves
+    }
+    const MoveState& state = line_.reached();
+    return answer(to_double(profile_segment_.stretch.from),
+                  {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}, work) != Search::running;
 }
 
 template <Scalar S, Floating R>
@@ -232,8 +251,8 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
         const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.pending() || (unanswered_ && !plan_.running())) {
-        follow_steering();
+    if ((steering_.pending() || changing_ || (retries_ && !plan_.running())) && !follow_steering(work)) {
+        return Pull::busy;
     }
     if (plan_.committed() == 0 && steering_.stops()) {
         plan_.commit(plan_.planned());
@@ -264,6 +283,7 @@ template <Scalar S, Floating R>
 void JerkPlan<S, R>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
+    retries_ = unanswered_;
     if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
         profile_segment_.stretch.from = profile_segment_.stretch.to;
         return;
@@ -294,7 +314,7 @@ void JerkPlan<S, R>::clear() noexcept {
     halt_ = 0;
     on_line_mm_ = 0.0;
     profile_segment_ = {};
-    unanswered_ = false;
+    unanswered_ = retries_ = changing_ = false;
     steering_.start();
 }
 

@@ -18,8 +18,8 @@
 namespace splinefeed {
 
 /// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan<R>). In
-/// parts: a step of the search is as many steps of the budget as the leg has cells. A change of the steering while the
-/// machine moves plans the path ahead about twenty times, at once (JerkChange).
+/// parts: a step of the search is as many steps of the budget as the leg has cells. A change of the
+/// steering while the machine moves plans the path ahead two or three times (JerkChange).
 template <Scalar S, Floating R>
 class JerkPlan final : public MotionPlan<S> {
 public:
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
-    bool steer(const PlanState<S>& place) noexcept override;
+    Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 
@@ -49,10 +49,10 @@ private:
     Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] R wanted_sq(const Cell<S>& cell, S most_sq) const noexcept;
     void want() noexcept;
-    bool answer(double from, const SpeedState& state) noexcept;
+    Search answer(double from, const SpeedState& state, WorkBudget& work) noexcept;
     bool change_line(double from, const SpeedState& state) noexcept;
-    bool change_curve(double from, const SpeedState& state) noexcept;
-    void follow_steering() noexcept;
+    Search change_curve(double from, const SpeedState& state, WorkBudget& work) noexcept;
+    bool follow_steering(WorkBudget& work) noexcept;
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 
@@ -60,12 +60,15 @@ private:
     const MotionLimits<S>* limits_;
     JerkWindow<S, R> window_;
     WindowPlan<S, R> plan_;
+    JerkChange<S, R> change_;  // used while a motion for a change of the steering is searched
     LineTravel line_{};        // used while a straight leg is travelled
     MoveLimits line_limits_{}; // limits of that leg
     std::size_t halt_ = 0;     // cells from the front on to the stop that a hold made; 0: none
     double on_line_mm_ = 0.0;  // part of the cell that is already travelled
     bool chosen_ = false;
+    bool changing_ = false;
     bool unanswered_ = false; // no motion was found yet for the latest change of the steering
+    bool retries_ = false;    // a search for one is due
 };
 
 } // namespace splinefeed

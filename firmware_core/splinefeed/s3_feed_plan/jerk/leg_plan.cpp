@@ -41,6 +41,8 @@ constexpr double most_use = 1.25;  // a larger one comes from the bounds and fal
 template <Floating R>
 constexpr double proved = std::same_as<R, double> ? 1.0 : 0.9999;
 constexpr double leads[] = {0.3, 0.6, 0.85};
+constexpr double lead_to_brake = 0.0;
+constexpr double slower = 16.0; // than expected: the square of the speed that a motion begins with which is to brake
 constexpr int most_scalings = 12;
 
 } // namespace
@@ -139,16 +141,15 @@ void LegPlan<R>::join() noexcept {
 }
 
 template <Floating R>
-void LegPlan<R>::guess() noexcept {
+void LegPlan<R>::guess(double lead) noexcept {
     for (LegNode<R>& node : leg()) {
         node.jerk_share = node.acceleration_share = R(1);
     }
     guess_leg<R>(leg(), limits_, rests_);
     if (!rests_ && known_ > 1) {
-        lead_over<R>(leg(), known_, R(leads[lead_]));
+        lead_over<R>(leg(), known_, R(lead));
     }
     solver_.evaluate();
-    solver_.begin({steps_of_a_leg, R(rests_ ? from_rest : in_motion), R(rough<R>), R(margin)});
 }
 
 template <Floating R>
@@ -156,6 +157,29 @@ void LegPlan<R>::search() noexcept {
     join();
     stage_ = Stage::guess;
     lead_ = 0;
+}
+
+template <Floating R>
+void LegPlan<R>::brake() noexcept {
+    join();
+    const auto scale = [this](R factor) {
+        for (LegNode<R>& node : leg()) {
+            node.likely_sq *= factor;
+        }
+    };
+    scale(R(1.0 / slower)); // exact: a power of two
+    guess(lead_to_brake);
+    scale(R(slower));
+    solver_.begin({steps_of_a_leg, R(from_rest), R(rough<R>), R(in_motion), false, nodes_[0].b});
+    stage_ = Stage::brake;
+}
+
+template <Floating R>
+void LegPlan<R>::cap(std::size_t i, R cap_sq) noexcept {
+    LegNode<R>& node = nodes_[i];
+    node.cap_sq = larger(R(proved<R>) * cap_sq, smaller(node.cap_sq, R(above_braking) * node.middle_sq));
+    node.known_sq = node.middle_sq;
+    known_ = cells_;
 }
 
 // Another attempt, if there is one.
@@ -169,7 +193,8 @@ template <Floating R>
 Search LegPlan<R>::step() noexcept {
     switch (stage_) {
     case Stage::guess:
-        guess();
+        guess(leads[lead_]);
+        solver_.begin({steps_of_a_leg, R(rests_ ? from_rest : in_motion), R(rough<R>), R(margin)});
         stage_ = Stage::first;
         return Search::running;
     case Stage::prove_first:
@@ -186,6 +211,7 @@ Search LegPlan<R>::step() noexcept {
         solver_.begin({steps_again, R(fine<R> * 2.0), R(fine<R>), R(margin_again), true});
         stage_ = Stage::again;
         return ++passes_ == most_passes ? fail() : Search::running;
+    case Stage::brake: return solver_.step();
     case Stage::first:
     case Stage::again:
     case Stage::anew: break;

@@ -14,6 +14,7 @@ template <Floating R>
 class LegPlan {
 public:
     static constexpr std::size_t fewest_cells = LegSolver<R>::fewest_cells;
+    static constexpr double above_braking = 1.02; ///< caps are so much above a motion that brakes
 
     /// @param nodes  scratch, one more than the cells of a leg
     explicit LegPlan(std::span<LegNode<R>> nodes) noexcept : nodes_(nodes) {}
@@ -32,6 +33,16 @@ public:
     /// A step of it, which visits every node about once. `none`: the nodes are not changed for the caller. Cost in all:
     /// ten to twenty steps of LegSolver, and as many again for each attempt that fails.
     Search step() noexcept;
+    /// Begins the search for the motion that brakes as hard as it can, from the plan that is known: the same step(). It
+    /// is not proved, and not for each_cell(). @pre it begins in motion, and something is known
+    void brake() noexcept;
+    /// Of the motion that brakes: b at the start of a cell, and its middle.
+    [[nodiscard]] R b(std::size_t i) const noexcept { return nodes_[i].b; }
+    [[nodiscard]] R middle_sq(std::size_t i) const noexcept { return nodes_[i].middle_sq; }
+    [[nodiscard]] R length_mm(std::size_t i) const noexcept { return nodes_[i].length_mm; }
+    /// Another cap for the middle of a cell, or a higher one that allows the motion that brakes, which becomes the
+    /// known one.
+    void cap(std::size_t i, R cap_sq) noexcept;
     /// All of it. Whether one was found.
     bool fastest() noexcept;
     /// From standstill: a motion that is possible and not fast. false: none within the range of numbers.
@@ -59,7 +70,8 @@ private:
         prove_first,
         again, ///< solved with smaller shares of the limits, from where it is
         anew,  ///< the same with new multipliers
-        prove
+        prove,
+        brake
     };
     struct Proof {
         bool kept = true; ///< every limit in every cell
@@ -68,7 +80,7 @@ private:
 
     [[nodiscard]] std::span<LegNode<R>> leg() const noexcept { return nodes_.first(cells_ + 1); }
     void join() noexcept;
-    void guess() noexcept;
+    void guess(double lead) noexcept;
     Search fail() noexcept;
     Proof prove(R from, bool tighten) noexcept;
 

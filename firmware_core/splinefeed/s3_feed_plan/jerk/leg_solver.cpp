@@ -22,6 +22,9 @@
 // nearer side has one, the far side is a primal barrier. The weight of a row's barrier is mu tau, tau = w b^(-1/2): so
 // mu is a share of the time, however uneven the cells are.
 //
+// To brake, the objective is the sum of w b / b_0^(3/2), whose terms are w b_0^(-1/2) at first: tau = w b_0^(-1/2). b
+// stays positive by a barrier of its own, -mu tau log m.
+//
 // h is concave or convex in b: its curvature, weighted by the multipliers, is taken from that of the time, as far as
 // the model stays convex.
 //
@@ -202,7 +205,7 @@ typename LegSolver<R>::Row LegSolver<R>::row_at(std::size_t i) const noexcept {
     row.slope = node.slope;
     row.root = R(1) / detail::hardware_square_root(node.b);
     row.per_b = row.root * row.root;
-    row.pull = barrier_ * node.weight_mm * row.root;
+    row.pull = barrier_ * node.weight_mm * (brake_root_ > R(0) ? brake_root_ : row.root);
     row.excess = infeasibility_ * node.excess;
     row.wider = R(1) + row.excess;
     row.acceleration_share =
@@ -255,8 +258,9 @@ inline void LegSolver<R>::add_cap(LegNode<R>& node, const Row& row, Value& value
     node.per_cap_slack = slack;
     gap_ += (node.cap_sq - node.middle_sq) * multiplier;
     nominal_gap_ += row.pull;
-    const R second = multiplier * slack;
-    const R first = central;
+    const R above = brake_root_ > R(0) ? R(1) / node.middle_sq : R(0); // of its barrier at 0
+    const R second = multiplier * slack + row.pull * above * above;
+    const R first = central - row.pull * above;
     const R half = R(0.5) * node.length_mm;
     value.bb += second;
     value.bs += second * half;
@@ -328,8 +332,12 @@ void LegSolver<R>::backward() noexcept {
         const R of_limits =
             R(0.75) * row.per_b * row.per_b *
             ((i > first_ ? R(terms.limit_curvature[0]) : R(0)) + (i + 1 < cells_ ? R(terms.limit_curvature[1]) : R(0)));
-        bb += larger(R(least_curvature) * own, own - of_limits);
-        first -= R(0.5) * slowness;
+        if (brake_root_ > R(0)) {
+            first += node.weight_mm * brake_root_ * brake_root_ * brake_root_;
+        } else {
+            bb += larger(R(least_curvature) * own, own - of_limits);
+            first -= R(0.5) * slowness;
+        }
         if (i + 1 < cells_) {
             pass_cell(i, terms, value);
             if (i > 0) {
@@ -387,6 +395,8 @@ void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
         forget_multipliers();
     }
     barrier_ = effort.start_accuracy;
+    const R from_sq = effort.brakes_from_sq;
+    brake_root_ = from_sq > R(0) ? R(1) / detail::hardware_square_root(from_sq) : R(0);
     steps_ = stuck_ = 0;
 }
 

@@ -27,6 +27,8 @@ struct LegEffort {
     R accuracy{};
     R margin{};         ///< of the limits, that the first motion leaves free at least
     bool again = false; ///< the multipliers of the last solution serve
+    R brakes_from_sq{}; ///< b at the start of a motion that is to be as slow as possible, instead of as fast; 0: it is
+                        ///< not
 };
 
 /// The nodes are the caller's: node i and the cell after it; the last one is the end, at standstill.
@@ -93,6 +95,7 @@ private:
     R nominal_gap_{};   // what it would be on the central path
     R first_step_{};    // of b at the first node, from standstill
     LegEffort<R> effort_{};
+    R brake_root_{}; // b^(-1/2) at the start of braking; 0: the motion is to be fast
     int steps_ = 0;
     int stuck_ = 0;
 };
