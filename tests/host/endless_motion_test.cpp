@@ -11,6 +11,8 @@
 #include "support/counter_seam.hpp"
 #include "temporary_folder.hpp"
 
+#include "splinefeed/number/path_position.hpp"
+
 #include <fmt/format.h>
 #include <fstream>
 
