@@ -101,7 +101,7 @@ MoveLimits JerkCell<R>::move_limits(R most_sq) const noexcept {
         const Steepness<R> s = steepness(*this, k);
         j = smaller(j, quotient_or_max(limits.jerk_mm_s3[k] - (R(3.0) * s.second * a + s.third * v_sq) * v, s.first));
     }
-    return {v, a, j};
+    return {to_double(v), to_double(a), to_double(j)};
 }
 
 template <Floating R>

@@ -80,7 +80,7 @@ bool JerkChange<S, R>::knows(std::size_t cell) const noexcept {
 // known.
 template <Scalar S, Floating R>
 SpeedState JerkChange<S, R>::known_state(std::size_t cell, double fraction) const noexcept {
-    const double length = window_->node(cell).length_mm;
+    const double length = to_double(window_->node(cell).length_mm);
     const SpeedState end = window_->state(cell + 1);
     const double start = cell == 0 ? from_ : 0.0;
     const SpeedState from = cell == 0 ? state_ : window_->state(cell);
@@ -121,7 +121,7 @@ void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& v
     const double least = least_mm(cuts);
     double at_mm = 0.0;
     for (std::size_t i = 0; i + first < window_->size(); ++i) {
-        const double length = window_->node(i + first).length_mm;
+        const double length = to_double(window_->node(i + first).length_mm);
         if (!concerns(cuts, at_mm, length)) {
             return;
         }

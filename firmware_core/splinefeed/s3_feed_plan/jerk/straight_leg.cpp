@@ -41,7 +41,7 @@ StraightLeg<S, R>::StraightLeg(JerkWindow<S, R>& window) noexcept : window_(&win
         limits_ = window.limits_of(0).move_limits(front.most_sq);
         return;
     }
-    limits_ = {square_root(front.most_sq), largest<double>(), largest<double>()};
+    limits_ = {square_root(to_double(front.most_sq)), largest<double>(), largest<double>()};
     for (std::size_t i = 0; i < cells_; ++i) {
         const MoveLimits of_cell = window.limits_of(i).move_limits(fastest_sq(window.node(i), window.node(i + 1)));
         limits_.acceleration_mm_s2 = smaller(limits_.acceleration_mm_s2, of_cell.acceleration_mm_s2);
