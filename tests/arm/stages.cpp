@@ -206,8 +206,11 @@ void write_pipeline(std::uint32_t before_stream) {
     Trajectory<Fixed> trajectory = make_trajectory<jerk_limited>(curve);
     FeedSegment& segment = Static<FeedSegment>::build();
     SegmentHash hash;
+    // With limited jerk in parts: all of a window at once may take more than is counted.
+    const unsigned work_of_call = jerk_limited ? work_a_call : WorkBudget::unlimited;
     const Work work = pull(
-        curve, [&] { return trajectory.next(segment); }, [&] { hash.add(segment); });
+        curve, [&] { return trajectory.next(segment, UnderrunPolicy::wait, work_of_call); },
+        [&] { hash.add(segment); });
     write_cost(jerk_limited ? "jerk_waypoint" : "pipeline_waypoint", work.counts, waypoints);
     write_cost(jerk_limited ? "jerk_feed_segment" : "pipeline_feed_segment", work.counts, work.items);
     if (!jerk_limited) {

@@ -10,11 +10,11 @@ source tests/arm/proof.sh "$@"
 name=${proof}_$3
 interrupt=main
 run=firmware_run
-smooth=0
+jerk=0
 if [[ $proof == drive ]]; then
     interrupt=drive/drive_main
     run=drive_run
-    smooth=none
+    jerk=none
 fi
 image=$build/bin/$name.elf
 forbids_all "$image"
@@ -35,7 +35,7 @@ if [[ $cpu != cortex-m0 ]]; then
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
         bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v smooth=$smooth -v root=$root -f tests/arm/stack.awk {} +)
+            -exec awk -v scalar=$scalar -v jerk=$jerk -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done

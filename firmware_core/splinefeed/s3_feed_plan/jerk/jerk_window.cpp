@@ -139,9 +139,8 @@ template <Scalar S, Floating R>
 void JerkWindow<S, R>::split(std::size_t i, double fraction) noexcept {
     open(i, 1);
     const S cut = from_double<S>(fraction);
-    const Cell<S> whole = cell(i + 1);
-    cell(i) = part_of(whole, CellInterval<S>{S{}, cut});
-    cell(i + 1) = part_of(whole, CellInterval<S>{cut, from_integer<S>(1)});
+    cell(i) = part_of(cell(i + 1), CellInterval<S>{S{}, cut});
+    cell(i + 1) = part_of(cell(i + 1), CellInterval<S>{cut, from_integer<S>(1)});
     JerkNode<R>& before = node(i);
     JerkNode<R>& after = node(i + 1);
     before = after;
