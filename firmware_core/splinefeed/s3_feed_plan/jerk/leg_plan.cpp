@@ -137,7 +137,8 @@ typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
 template <Floating R>
 void LegPlan<R>::join() noexcept {
     solver_ = LegSolver<R>(leg(), limits_, rests_);
-    solver_.join(first_most_sq_, last_most_sq_);
+    motion_ = LegMotion<R>(leg(), rests_);
+    motion_.join(first_most_sq_, last_most_sq_);
 }
 
 template <Floating R>
@@ -149,7 +150,7 @@ void LegPlan<R>::guess(double lead) noexcept {
     if (!rests_ && known_ > 1) {
         lead_over<R>(leg(), known_, R(lead));
     }
-    solver_.evaluate();
+    motion_.evaluate();
 }
 
 template <Floating R>
@@ -205,7 +206,6 @@ Search LegPlan<R>::step() noexcept {
         return Search::running;
     case Stage::prove:
         if (prove(R(proved<R>), true).kept) {
-            seconds_ = solver_.seconds();
             return Search::found;
         }
         solver_.begin({steps_again, R(fine<R> * 2.0), R(fine<R>), R(margin_again), true});
@@ -218,7 +218,7 @@ Search LegPlan<R>::step() noexcept {
     }
     const Search solved = solver_.step();
     if (solved == Search::found) {
-        solver_.settle(start_, true);
+        motion_.settle(start_, true);
         stage_ = stage_ == Stage::first ? Stage::prove_first : Stage::prove;
     } else if (solved == Search::none && stage_ == Stage::again) {
         solver_.begin({steps_of_a_leg, R(in_motion), R(fine<R>), R(margin_again)});
@@ -249,11 +249,10 @@ bool LegPlan<R>::slow() noexcept {
         for (LegNode<R>& node : leg()) {
             node.middle_sq *= kappa;
         }
-        solver_.evaluate();
-        solver_.settle(start_, false);
+        motion_.evaluate();
+        motion_.settle(start_, false);
         const Proof proof = prove(R(proved<R>), false);
         if (proof.kept) {
-            seconds_ = solver_.seconds();
             return true;
         }
         kappa = R(0.99) * power_two_thirds(R(1) / smaller(proof.most, R(1e4)));

@@ -55,13 +55,12 @@ public:
         if (rests_) {
             visit(std::size_t{0}, 0.0, 0.0);
         }
-        SpeedState state = solver_.first(start_);
+        SpeedState state = motion_.first(start_);
         for (std::size_t i = rests_ ? 1 : 0; i < cells_; ++i) {
             visit(i, state.b, state.b + 0.5 * state.slope * static_cast<double>(nodes_[i].length_mm));
-            state = i + 1 < cells_ ? solver_.behind(i, state) : state;
+            state = i + 1 < cells_ ? motion_.behind(i, state) : state;
         }
     }
-    [[nodiscard]] R seconds() const noexcept { return seconds_; }
 
 private:
     enum class Stage : std::uint8_t {
@@ -85,6 +84,7 @@ private:
     Proof prove(R from, bool tighten) noexcept;
 
     std::span<LegNode<R>> nodes_;
+    LegMotion<R> motion_;
     LegSolver<R> solver_;
     std::size_t cells_ = 0;
     std::size_t known_ = 0;
@@ -93,7 +93,6 @@ private:
     AxisLimits<R> limits_{};
     R first_most_sq_{};
     R last_most_sq_{};
-    R seconds_{};
     Stage stage_ = Stage::guess;
     std::size_t lead_ = 0; // number of the attempt
     int passes_ = 0;       // of solving again

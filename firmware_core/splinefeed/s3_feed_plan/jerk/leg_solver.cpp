@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The unknowns are the middle Bezier points m_i of b = v^2 in the cells (lengths L_i): control points of a C1 quadratic
-// spline, so
-//
-//   b_i = (L_i m_{i-1} + L_{i-1} m_i) / (L_{i-1} + L_i),  b'_i = 2 (m_i - m_{i-1}) / (L_{i-1} + L_i),
-//   u_i = (b'_{i+1} - b'_i) / L_i.
-//
-// A cell next to standstill has constant jerk along the path: b' = 4 b / (3 L) at its moving end (jerk_cell.cpp).
+// The unknowns are the middle Bezier points m of b = v^2 in the cells (leg_motion.cpp).
 //
 // Rows |p| <= h at every node, for each axis:
 //
@@ -40,7 +34,6 @@ namespace {
 
 template <Floating R>
 constexpr R no_row = R(1e9);             // share of a limit beside the first and the last cell: there is no row
-constexpr double rise = 4.0 / 3.0;       // of b next to standstill, per length
 constexpr double least_left = 0.2;       // of middle_sq, after a step
 constexpr double least_curvature = 0.05; // of the time's own
 constexpr double least_shrink = 0.1;     // of the gap in a step
@@ -72,61 +65,9 @@ struct LegSolver<R>::Value {
 };
 
 template <Floating R>
-void LegSolver<R>::join(R first_most_sq, R last_most_sq) noexcept {
-    const std::size_t n = cells_;
-    const auto own_share = [this](std::size_t moving, R other_mm, R rest_mm) { // beside a cell next to standstill
-        const R share = R(1) / (R(1) + R(2) * other_mm / (R(3) * rest_mm));
-        LegNode<R>& node = node_[moving];
-        node.of_before = node.of_own = node.slope_of_before = node.slope_of_own = R(0);
-        return share;
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        node_[i].per_length = R(1) / node_[i].length_mm;
-        node_[i].weight_mm = R(0.5) * ((i > 0 ? node_[i - 1].length_mm : R(0)) + node_[i].length_mm);
-    }
-    for (std::size_t i = 1; i < n; ++i) {
-        LegNode<R>& node = node_[i];
-        const R before = node_[i - 1].length_mm;
-        const R sum = R(1) / (before + node.length_mm);
-        node.of_before = node.length_mm * sum;
-        node.of_own = before * sum;
-        node.slope_of_own = R(2) * sum;
-        node.slope_of_before = -node.slope_of_own;
-    }
-    if (rests()) {
-        LegNode<R>& node = node_[1];
-        const R share = own_share(1, node.length_mm, node_[0].length_mm);
-        node.of_own = share;
-        node.slope_of_own = share * R(rise) * node_[0].per_length;
-        node.weight_mm += R(2.5) * node_[0].length_mm; // t = 3 L / v
-        node.cap_sq = smaller(node.cap_sq, first_most_sq / share);
-    }
-    LegNode<R>& last = node_[n - 1];
-    const R share = own_share(n - 1, node_[n - 2].length_mm, last.length_mm);
-    last.of_before = share;
-    last.slope_of_before = -share * R(rise) * last.per_length;
-    last.weight_mm += R(2.5) * last.length_mm;
-    node_[n - 2].cap_sq = smaller(node_[n - 2].cap_sq, last_most_sq / share);
-    node_[n - 1].curvature = R(0);
-    node_[n].b = node_[n].slope = R(0);
-    node_[n].of_before = node_[n].of_own = node_[n].slope_of_before = node_[n].slope_of_own = R(0);
-}
-
-template <Floating R>
-void LegSolver<R>::evaluate() noexcept {
-    for (std::size_t i = 1; i < cells_; ++i) {
-        LegNode<R>& before = node_[i - 1];
-        LegNode<R>& node = node_[i];
-        node.b = node.of_before * before.middle_sq + node.of_own * node.middle_sq;
-        node.slope = node.slope_of_before * before.middle_sq + node.slope_of_own * node.middle_sq;
-        before.curvature = (node.slope - before.slope) * before.per_length;
-    }
-}
-
-template <Floating R>
 typename LegSolver<R>::Change LegSolver<R>::first_change() const noexcept {
-    const R b = rests() ? first_step_ : R(0);
-    const R slope = R(rise) * node_[0].per_length * b;
+    const R b = first_ > 0 ? first_step_ : R(0);
+    const R slope = R(detail::rise_from_rest) * node_[0].per_length * b;
     return {b, slope, of_gains(node_[first_], b, slope)};
 }
 
@@ -152,47 +93,6 @@ void LegSolver<R>::move(R part) noexcept {
         }
         change = next_change(i, change);
     }
-}
-
-template <Floating R>
-SpeedState LegSolver<R>::first(const SpeedState& start) const noexcept {
-    const auto b = static_cast<double>(node_[1].b);
-    return rests() ? SpeedState{b, rise * b / static_cast<double>(node_[0].length_mm)} : start;
-}
-
-// The last parabola ends with b' = -4 b / (3 L), L of the cell behind it.
-template <Floating R>
-SpeedState LegSolver<R>::behind(std::size_t i, const SpeedState& state) const noexcept {
-    const auto length = static_cast<double>(node_[i].length_mm);
-    auto u = static_cast<double>(node_[i].curvature);
-    if (i + 2 == cells_) {
-        const double per = -rise / static_cast<double>(node_[i + 1].length_mm);
-        u = (per * (state.b + state.slope * length) - state.slope) / (length - 0.5 * per * length * length);
-    }
-    return {state.b + (state.slope + 0.5 * u * length) * length, state.slope + u * length};
-}
-
-template <Floating R>
-void LegSolver<R>::settle(const SpeedState& start, bool by_gains) noexcept {
-    SpeedState state = first(start);
-    for (std::size_t i = first_; i + 1 < cells_; ++i) {
-        LegNode<R>& node = node_[i];
-        if (by_gains) {
-            node.curvature += node.gain[1] * static_cast<R>(state.b - static_cast<double>(node.b)) +
-                              node.gain[2] * static_cast<R>(state.slope - static_cast<double>(node.slope));
-        }
-        const SpeedState next = behind(i, state);
-        const auto length = static_cast<double>(node.length_mm);
-        node.b = static_cast<R>(state.b);
-        node.slope = static_cast<R>(state.slope);
-        node.middle_sq = static_cast<R>(state.b + 0.5 * state.slope * length);
-        if (i + 2 == cells_) {
-            node.curvature = static_cast<R>((next.slope - state.slope) / length);
-        }
-        state = next;
-    }
-    node_[cells_ - 1].b = static_cast<R>(state.b);
-    node_[cells_ - 1].slope = static_cast<R>(state.slope);
 }
 
 template <Floating R>
@@ -282,7 +182,7 @@ inline void LegSolver<R>::pass_cell(std::size_t i, const Terms& terms, Value& va
     const R of_u = value.u + terms.u[1];
     const R nu = of_u + value.b * b0 + value.s * length;
     if (i + 2 == cells_) { // b' = -4 b / (3 L) at its end
-        const R per = R(-rise) * node_[cells_ - 1].per_length;
+        const R per = R(-detail::rise_from_rest) * node_[cells_ - 1].per_length;
         const R inverse = R(1) / (length - per * b0);
         node.gain = {R(0), per * inverse, (per * length - R(1)) * inverse};
     } else {
@@ -354,7 +254,7 @@ void LegSolver<R>::backward() noexcept {
         value.uu = terms.uu[0];
         value.u = terms.u[0];
     }
-    const R slope = R(rise) * node_[0].per_length;
+    const R slope = R(detail::rise_from_rest) * node_[0].per_length;
     first_step_ = -(value.b + slope * value.s) / (value.bb + R(2) * slope * value.bs + slope * slope * value.ss);
 }
 
@@ -431,25 +331,6 @@ Search LegSolver<R>::finish() noexcept {
         }
     }
     return Search::found;
-}
-
-template <Floating R>
-R LegSolver<R>::seconds() const noexcept {
-    R sum{};
-    for (std::size_t i = 0; i < cells_; ++i) {
-        const LegNode<R>& node = node_[i];
-        const bool from_rest = i == 0 && rests();
-        if (from_rest || i + 1 == cells_) {
-            sum += R(3) * node.length_mm / detail::hardware_square_root(from_rest ? node_[1].b : node.b);
-            continue;
-        }
-        const R next = node_[i + 1].b;
-        const R middle = R(0.25) * (node.b + next + R(2) * node.middle_sq);
-        sum += node.length_mm * R(1.0 / 6.0) *
-               (R(1) / detail::hardware_square_root(node.b) + R(4) / detail::hardware_square_root(middle) +
-                R(1) / detail::hardware_square_root(next));
-    }
-    return sum;
 }
 
 template class LegSolver<float>;

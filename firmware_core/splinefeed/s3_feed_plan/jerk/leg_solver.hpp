@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // LegSolver: the speeds along a leg that keep the limits at its nodes and take the least time, by an interior-point
 // method. Derivation: leg_solver.cpp.
-//
-//      b |      m1____m2            b = v^2: a parabola in each cell, with the middle Bezier point m;
-//        |    .'        '.          b and db/ds are continuous whatever the m are
-//        |  .'            '.m3
-//        |.'                '.      the first and the last cell next to standstill: constant jerk
-//        +--|------|-----|----|--> s
 #pragma once
 
+#include "splinefeed/s3_feed_plan/jerk/leg_motion.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
-#include "splinefeed/s3_feed_plan/jerk/speed_state.hpp"
 
 #include <span>
 
@@ -31,7 +25,7 @@ struct LegEffort {
                         ///< not
 };
 
-/// The nodes are the caller's: node i and the cell after it; the last one is the end, at standstill.
+/// The nodes are the caller's, as those of LegMotion.
 template <Floating R>
 class LegSolver {
 public:
@@ -44,28 +38,11 @@ public:
     LegSolver(std::span<LegNode<R>> nodes, const AxisLimits<R>& limits, bool rests) noexcept
         : node_(nodes), cells_(nodes.size() - 1), first_(rests ? 1U : 0U), limits_(limits) {}
 
-    [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
-    [[nodiscard]] bool rests() const noexcept { return first_ == 1; }
-
-    /// Before the first begin(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
-    /// begins at standstill) and of the last one.
-    void join(R first_most_sq, R last_most_sq) noexcept;
-    /// b, slope and curvature from middle_sq.
-    void evaluate() noexcept;
     /// From the motion of the nodes on, which may exceed limits.
     void begin(const LegEffort<R>& effort) noexcept;
     /// One step. `found`: the limits are kept at every node, which have their b, slope and curvature. Cost: about 500
     /// operations a node of three axes. @pre begin()
     Search step() noexcept;
-    /// The state at the first node that moves. @param start  of the leg, if that does not begin at standstill
-    [[nodiscard]] SpeedState first(const SpeedState& start) const noexcept;
-    /// The state at the end of cell i, from that at its start, by its curvature: continuous to the last digit of
-    /// double.
-    [[nodiscard]] SpeedState behind(std::size_t i, const SpeedState& state) const noexcept;
-    /// Makes the nodes those of that motion. What the steps have rounded in R, the gains of the last one correct.
-    void settle(const SpeedState& start, bool by_gains) noexcept;
-    /// Duration of the motion [s], by Simpson's rule.
-    [[nodiscard]] R seconds() const noexcept;
 
 private:
     using Row = detail::LegRow<R>;
