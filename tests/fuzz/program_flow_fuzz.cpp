@@ -167,7 +167,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::set<std::string> told;
     for (const std::string& problem : problems.texts()) {
-        if (!names_a_line(problem, lines.size())) {
+        const bool says_how_many_more = told.size() == ProblemList::most_causes;
+        if (!says_how_many_more && !names_a_line(problem, lines.size())) {
             fail("an error without its line", problem);
         }
         if (!told.insert(problem).second) {
