@@ -65,7 +65,7 @@ SteeredRun run_in_parts(const Round& round, unsigned work, double ahead, std::ui
 TEMPLATE_TEST_CASE("a motion planned in parts is the same motion", "[stream][work]", double, float, Fixed) {
     using S = TestType;
     int judged = 0;
-    for (std::uint64_t n = first_round(); n < static_cast<std::uint64_t>(rounds(12)); ++n) {
+    for (std::uint64_t n = first_round(); n < static_cast<std::uint64_t>(rounds(24)); ++n) {
         Random random(seed + n);
         Round round = random_round<S>(random);
         const SteeredRun plain = run_in_parts<S>(round, WorkBudget::unlimited, 0.0, 0);
