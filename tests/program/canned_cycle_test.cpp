@@ -79,7 +79,7 @@ TEST_CASE("increments and repeats", "[program][cycle]") {
 TEST_CASE("cycles in other planes and in a turned system", "[program][cycle]") {
     GcodeRun<double> run;
     run.run("F1800 G18 G0 Y5");
-    CHECK(run.text("G81 X1 Z3 Y-1 R2") == "rapid 1 5 3\nrapid 1 2 3\nfeed 1 -1 3\nrapid 1 5 3");
+    CHECK(run.text("G98 G81 X1 Z3 Y-1 R2") == "rapid 1 5 3\nrapid 1 2 3\nfeed 1 -1 3\nrapid 1 5 3");
     run.run("G80 G17 G10 L2 P1 R90 X0 Y0\nG0 X0 Y0 Z5");
     CHECK(run.text("G81 X10 Z-1 R1") == "rapid 0 10 5\nrapid 0 10 1\nfeed 0 10 -1\nrapid 0 10 5");
 }

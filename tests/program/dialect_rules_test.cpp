@@ -203,6 +203,14 @@ TEST_CASE("Fanuc's steps, cancels and motions beside G28", "[program][dialects]"
     CHECK(text(Dialect::fanuc, "F60 G81 G91 G99 X1 Z-1 R0 K2").find("feed 2 0 -1") != std::string::npos);
 }
 
+TEST_CASE("LinuxCNC's cycles begin in G99, others in G98", "[program][dialects]") {
+    for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl, Dialect::fanuc}) {
+        const std::string end = dialect == Dialect::linuxcnc ? "rapid 1 0 2" : "rapid 1 0 9";
+        const std::string cycle = text(dialect, "F60 G0 Z9\nG81 X1 Z-1 R2");
+        CHECK(cycle.substr(cycle.size() - end.size()) == end);
+    }
+}
+
 TEST_CASE("Fanuc's numbers without a decimal point", "[program][dialects]") {
     ProgramSettings settings = in(Dialect::fanuc);
     settings.increments = true;

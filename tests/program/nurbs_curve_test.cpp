@@ -186,6 +186,16 @@ TEST_CASE("a circle of weights", "[program][nurbs]") {
     }
 }
 
+TEST_CASE("a piece of weights is one move: under G61.1 the machine stops at its end", "[program][nurbs]") {
+    GcodeRun<double> run;
+    run.run("F600 G61.1 G0 X10 Y0");
+    const auto items = run.run("G5.2 X10 Y10 P0.707106781 L3\nX0 Y10 P1\nG5.3");
+    REQUIRE(items.size() > 1);
+    for (const auto& item : items) {
+        CHECK((item.element.mode == PathMode::exact_stop) == (&item == &items.back()));
+    }
+}
+
 TEST_CASE("a curve ends at its last point, whatever its weight", "[program][nurbs]") {
     for (const std::string weight : {"0.5", "0.7", "3", "1.1"}) {
         for (int angle = 0; angle < 90; angle += 7) {

@@ -19,6 +19,7 @@ struct DialectTable {
 
     static constexpr DialectRules linuxcnc{
         .polar_words = true,
+        .retracts_to_r = true,
         .first_motion = 800,
         .arc = arc_linuxcnc,
         .arc_in_inches = arc_linuxcnc_inches,

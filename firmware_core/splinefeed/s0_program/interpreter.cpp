@@ -184,6 +184,9 @@ void Interpreter<S>::fill_piece(ProgramItem<S>& out) noexcept {
     element.bezier.degree = 5;
     element.bezier.points = {};
     in_pieces_ = !pieces_.is_done();
+    if (in_pieces_ && element.mode == PathMode::exact_stop) { // the move ends with its last piece
+        element.mode = PathMode::exact_path;
+    }
     for (unsigned k = 0; k < 3; ++k) {
         const int axis = letters().index("xyz"[k]);
         if (axis < 0) {

@@ -19,8 +19,10 @@ constexpr Decimal usual_chain_tolerance(Decimal tolerance_mm, const ProgramSetti
 
 ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     ModalState state;
-    state.motion = rules_of(settings.dialect).first_motion;
-    state.feed = rules_of(settings.dialect).first_feed;
+    const DialectRules& rules = rules_of(settings.dialect);
+    state.retract_to_r = rules.retracts_to_r;
+    state.motion = rules.first_motion;
+    state.feed = rules.first_feed;
     state.tolerance_mm = settings.default_tolerance_mm;
     state.chain_tolerance_mm = usual_chain_tolerance(state.tolerance_mm, settings);
     return state;
