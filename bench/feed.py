@@ -114,6 +114,37 @@ def uneven_table(tool, count, folder):
     print_ratios(ratios, count)
 
 
+MONOTONE_PATHS = ("butterfly.json", "logo.json", "cam.json", "path61.csv", "circle720.csv", "square.csv", "star.csv", "random")
+
+
+def monotone_table(tool, count, folder):
+    """A limit that is raised, of velocity, acceleration or jerk of every axis, must not make the time longer."""
+    worst = []
+    for seed in range(1, count + 1):
+        numbers = random.Random(seed)
+        name = numbers.choice(MONOTONE_PATHS)
+        program = folder / "points.csv" if name == "random" else pathlib.Path("examples") / name
+        if name == "random":
+            program.write_text("x,y,z\n" + "".join("{:.5f},{:.5f},{:.5f}\n".format(*point) for point in random_points(numbers)))
+        axes = "xy" if name in ("butterfly.json", "logo.json") else "xyz"
+        limits = [10 ** numbers.uniform(0.7, 3), 10 ** numbers.uniform(1, 5), 10 ** numbers.uniform(3, 9)]
+        raised, which = list(limits), numbers.randrange(3)
+        raised[which] *= 10 ** numbers.uniform(0.01, 2)
+        if raised[0] > 1e4 or raised[1] > 1e6 or raised[2] > 1e9:
+            continue
+        try:
+            times = [seconds(tool, program, machine(axes, each[0], [tuple(each)] * len(axes)), folder) for each in (limits, raised)]
+        except subprocess.CalledProcessError as error:  # such as a sample period that is too short for these limits
+            print(f"seed {seed}, {name}, {limits}: {error.stderr.strip().splitlines()[-1]}")
+            continue
+        worst.append((times[1] / times[0], seed, name, limits, "VAJ"[which], raised[which], times))
+    worst.sort(key=lambda row: -row[0])
+    print("| longer by | seed | path | V, A, J | raised to | times |\n|---|---|---|---|---|---|")
+    for ratio, seed, name, limits, which, value, times in worst[:10]:
+        print("| {:.4f} | {} | {} | {:.3g}, {:.3g}, {:.3g} | {} {:.3g} | {:.4f}, {:.4f} s |".format(ratio - 1, seed, name, *limits, which, value, *times))
+    print(f"{sum(row[0] > 1.003 for row in worst)} of {len(worst)} are longer by more than 0.3 %")
+
+
 def print_ratios(ratios, count):
     for scalar in SCALARS:
         ordered = sorted(ratios[scalar])
@@ -126,10 +157,11 @@ def main():
     parser.add_argument("--tool", type=os.path.abspath, default="build/release/bin/splinefeed")
     parser.add_argument("--curve", help="a curve .json in two dimensions")
     parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
+    parser.add_argument("--monotone", type=int, default=0, metavar="COUNT", help="so many random limits and one of them raised")
     parser.add_argument("--uneven", type=int, default=0, metavar="COUNT", help="so many splines through points 0.02 to 20 mm apart")
     arguments = parser.parse_args()
-    if not arguments.curve and arguments.random <= 0 and arguments.uneven <= 0:
-        parser.error("what is to be run? --curve FILE, --random COUNT or --uneven COUNT")
+    if not arguments.curve and arguments.random <= 0 and arguments.uneven <= 0 and arguments.monotone <= 0:
+        parser.error("what is to be run? --curve FILE, --random COUNT, --uneven COUNT or --monotone COUNT")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         if arguments.curve:
@@ -138,6 +170,8 @@ def main():
             random_table(arguments.tool, arguments.random, folder)
         if arguments.uneven:
             uneven_table(arguments.tool, arguments.uneven, folder)
+        if arguments.monotone:
+            monotone_table(arguments.tool, arguments.monotone, folder)
 
 
 if __name__ == "__main__":

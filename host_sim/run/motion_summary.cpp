@@ -55,14 +55,12 @@ Summary Motion::summary() const {
     summary.jerk_scalar = path.jerk_scalar;
     summary.curve = input_->curve_name();
     summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
-    double acceleration_sq = 0.0;
     for (int k = 0; k < figures_->axes; ++k) {
         const LimitUse& use = machine_.use(k);
         const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
         const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
         summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
                                      has_jerk ? std::optional(use.jerk) : std::nullopt});
-        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
     }
     // Segments that came whole are not measured against the points they were made of.
     if (input_->segments() == nullptr && !input_->within_tolerance() && passes_waypoints(summary.curve)) {
@@ -87,7 +85,8 @@ Summary Motion::summary() const {
     summary.window_limited = path.window_limited;
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = figures_->segment_ticks / (ticks_per_us * 1e6);
-    summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
+    summary.smoothing_bound_mm =
+        duration_s * duration_s / 6.0 * std::sqrt(axis_totals(within_jerk(description_->settings)).acceleration_sq);
     if (target_ != nullptr) {
         target_->describe(summary);
     }

@@ -249,6 +249,22 @@ TEMPLATE_TEST_CASE("as many segments per sample as smoothing needs", "[feed_plan
     }
 }
 
+TEMPLATE_TEST_CASE("an acceleration that the jerk keeps an axis from is no limit", "[feed_plan][limits]", double,
+                   Fixed) {
+    MachineSettings machine;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_velocity_mm_s = 50.0;
+        axis.max_jerk_mm_s3 = 2e4; // 1414 mm/s^2 at most: to it in 71 ms and 50 mm/s, and back in as much
+    }
+    const auto planned = [&](double acceleration) {
+        machine.axis[0].max_acceleration_mm_s2 = machine.axis[0].max_braking_mm_s2 = acceleration;
+        return to_double(MotionLimits<TestType>::make(machine).value().acceleration_mm_s2[0]);
+    };
+    CHECK(planned(1410.0) == Approx(1410.0).epsilon(0.01));
+    CHECK(planned(1e6) == planned(1500.0));
+    CHECK(planned(1e6) == Approx(std::sqrt(2.0 * 2e4 * 50.0)).epsilon(0.01));
+}
+
 TEST_CASE("limits can be made by the compiler", "[feed_plan][limits]") {
     constexpr auto good = MotionLimits<Fixed>::make({});
     static_assert(good.has_value() && good.value().axes == 3 && good.value().segment_ticks == 8000);

@@ -2,8 +2,8 @@
 //
 // A jerk-limited plan has one pseudo-jerk u for each cell, with |u| <= 2 J / sqrt(b) for the largest b in the cell. So
 // in a cell of length L beside a bend the speed v can change much only where L is not longer than the way in which a
-// jerk J changes v by itself, sqrt(v^3 / J). A motion from rest needs no such parts: ArcLength grades the cells near a
-// stop.
+// jerk J changes v by itself, sqrt(v^3 / J), or an acceleration A does, v^2 / (2 A). A motion from rest needs no such
+// parts: ArcLength grades the cells near a stop.
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -39,12 +39,14 @@ S GradedFeed<S>::speed_sq_at(S fraction) const noexcept {
 
 // How long a part may be: the slower of its ends decides, of those in motion; between stops, the largest number.
 template <Scalar S>
-S GradedFeed<S>::longest_of(const CellInterval<S>& part, S jerk) const noexcept {
+S GradedFeed<S>::longest_of(const CellInterval<S>& part, S jerk, S acceleration) const noexcept {
     const S from_sq = speed_sq_at(part.from);
     const S to_sq = speed_sq_at(part.to);
     const S slower_sq = smaller(from_sq, to_sq);
-    const S speed = square_root(slower_sq > S{} ? slower_sq : larger(from_sq, to_sq));
-    return speed > S{} ? longest_ * speed * square_root(speed / jerk) : largest<S>();
+    const S speed_sq = slower_sq > S{} ? slower_sq : larger(from_sq, to_sq);
+    const S speed = square_root(speed_sq);
+    return speed > S{} ? longest_ * larger(speed * square_root(speed / jerk), scale2(speed_sq, -1) / acceleration)
+                       : largest<S>();
 }
 
 template <Scalar S>
@@ -54,13 +56,17 @@ CellInterval<S> GradedFeed<S>::next_part(const Cell<S>& cell) const noexcept {
         return part;
     }
     S jerk = largest<S>();
+    S acceleration = largest<S>();
     for (const unsigned k : indices(cell.axes)) {
-        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], lengthened<S>(cell.tangent_max[k])));
+        const S tangent = lengthened<S>(cell.tangent_max[k]);
+        const S most = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
+        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], tangent));
+        acceleration = smaller(acceleration, quotient_or_max(most, tangent));
     }
     const auto too_long = [&] {
         const S length = cell.length_mm * part.length();
         return length > literal<S>(shortest_mm) && part.length() > literal<S>(least_share) &&
-               length > longest_of(part, jerk);
+               length > longest_of(part, jerk, acceleration);
     };
     while (too_long()) {
         part.to = part.from + scale2(part.length(), -1);

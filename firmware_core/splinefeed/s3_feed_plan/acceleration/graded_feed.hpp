@@ -10,11 +10,12 @@ namespace splinefeed {
 
 /// Delivers the cells of a FeedPlan to a plan that limits the jerk, in parts that are short where the speed is low.
 /// Without that the cells beside a short bend would keep the low speed of the bend. Memory: a few words. Cost per part:
-/// two roots, a division for each axis, two roots for each halving, and cutting the part if it is not a whole cell.
+/// two roots, two divisions for each axis; two roots and two divisions for each halving, and cutting the part if it is
+/// not a whole cell.
 template <Scalar S>
 class GradedFeed {
 public:
-    /// `source` and `limits` must outlive it. @param longest  length of a part at most, in sqrt(v^3 / J)
+    /// `source` and `limits` must outlive it. @param longest  length of a part at most, in sqrt(v^3 / J) or v^2 / (2 A)
     GradedFeed(FeedPlan<S>& source, const MotionLimits<S>& limits, S longest) noexcept
         : source_(&source), limits_(&limits), longest_(longest) {
         source.lead();
@@ -55,7 +56,7 @@ private:
     }
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
-    [[nodiscard]] S longest_of(const CellInterval<S>& part, S jerk) const noexcept;
+    [[nodiscard]] S longest_of(const CellInterval<S>& part, S jerk, S acceleration) const noexcept;
     [[nodiscard]] S speed_sq_at(S fraction) const noexcept;
     void leave(const CellInterval<S>& part) noexcept;
 

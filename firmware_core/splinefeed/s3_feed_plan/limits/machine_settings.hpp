@@ -45,6 +45,34 @@ struct MachineSettings {
     int segments_per_sample = 0;
 };
 
+namespace detail {
+
+/// The root of a number, by Newton's steps from above; `most` if that is less.
+constexpr double root_up_to(double most, double number) noexcept {
+    double root = most;
+    for (int step = 0; step < 64 && number < most * most; ++step) {
+        root = 0.5 * (root + number / root);
+    }
+    return root;
+}
+
+} // namespace detail
+
+/// The machine with no more acceleration than its jerk limits let an axis reach. To reach `a`, the speed changes by
+/// a^2 / (2 J), and to end it by as much again: that lies between -V and V. A higher limit
+/// would cut samples into more segments, and cells into shorter ones, than the motion needs.
+constexpr MachineSettings within_jerk(MachineSettings machine) noexcept {
+    for (const unsigned k : indices(machine.axes)) {
+        AxisSettings& axis = machine.axis[k];
+        if (const double jerk = axis.max_jerk_mm_s3; jerk > 0.0) {
+            axis.max_acceleration_mm_s2 =
+                detail::root_up_to(axis.max_acceleration_mm_s2, 2.0 * jerk * axis.max_velocity_mm_s);
+            axis.max_braking_mm_s2 = detail::root_up_to(axis.max_braking_mm_s2, 2.0 * jerk * axis.max_velocity_mm_s);
+        }
+    }
+    return machine;
+}
+
 /// What all axes of a machine have together.
 struct AxisTotals {
     double acceleration_sq = 0.0; ///< sum of squares

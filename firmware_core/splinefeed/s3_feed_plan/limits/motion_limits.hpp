@@ -118,14 +118,15 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
 
 /// Length of the longest cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding that this
 /// causes must stay below `share` of the acceleration and ten times `share` of the feed. It must stay below a
-/// thousandth of the jerk if the jerk is limited (not 0).
+/// thousandth of the jerk if the jerk is limited (not 0), or six of them where cells would be very short.
 constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
     const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
     double length = by_acceleration < by_feed ? by_acceleration : by_feed;
     const double by_jerk = 1e-3 * jerk * segment_s * segment_s * segment_s / (8.0 * error);
-    length = jerk > 0.0 && by_jerk < length ? by_jerk : length;
+    const double coarser = 6.0 * by_jerk < 0.25 ? 6.0 * by_jerk : 0.25; // so that a window shows enough of the path
+    length = jerk > 0.0 && by_jerk < length ? (coarser > by_jerk ? coarser : by_jerk) : length;
     return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
 }
 
@@ -154,15 +155,8 @@ inline constexpr double direction_noise<float> = 2e-6;
 constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
     constexpr double most = 16e6; // largest curvature that a cell can tell from infinite
     const double by_acceleration = 1e6 / 8.0 * acceleration;
-    double sharpest = by_acceleration < most ? by_acceleration : most;
-    if (jerk > 0.0 && 5e-9 * sharpest * sharpest > 0.25 * jerk) {
-        double root = sharpest; // Newton's steps end above the root
-        for (int step = 0; step < 64; ++step) {
-            root = 0.5 * (root + 0.05e9 * jerk / root);
-        }
-        sharpest = root;
-    }
-    return sharpest;
+    const double sharpest = by_acceleration < most ? by_acceleration : most;
+    return jerk > 0.0 ? root_up_to(sharpest, 0.05e9 * jerk) : sharpest;
 }
 
 /// Limit from the chord error e at the sample period T: v^2 <= 8 e / (kappa T^2). Limited to the range of Fixed, where
@@ -175,12 +169,7 @@ constexpr double chord_limit(double error_mm, double period_s) noexcept {
 /// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity. At most the value whose
 /// square, times the numbers of a shape, fits in Fixed.
 constexpr double fastest_path(double feed, double turning_sq) noexcept {
-    constexpr double fastest = 10000.0;
-    double root = fastest; // Newton's steps end above the root
-    for (int step = 0; step < 64; ++step) {
-        root = 0.5 * (root + (feed * feed + turning_sq) / root);
-    }
-    return root < fastest ? root : fastest;
+    return root_up_to(10000.0, feed * feed + turning_sq);
 }
 
 /// The range of full speed. The emitted motion averages the plan over two segments to either side, which the axis
@@ -256,17 +245,18 @@ constexpr LimitError axis_error(const AxisSettings& axis) noexcept {
 } // namespace detail
 
 template <Scalar S>
-constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
-    if (const LimitError error = detail::machine_error(settings); error != LimitError::none) {
+constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const MachineSettings& stated) noexcept {
+    if (const LimitError error = detail::machine_error(stated); error != LimitError::none) {
         return error;
     }
     MotionLimits limits;
-    limits.axes = settings.axes;
-    for (const unsigned k : indices(settings.axes)) {
-        if (const LimitError error = detail::axis_error<S>(settings.axis[k]); error != LimitError::none) {
+    limits.axes = stated.axes;
+    for (const unsigned k : indices(stated.axes)) {
+        if (const LimitError error = detail::axis_error<S>(stated.axis[k]); error != LimitError::none) {
             return error;
         }
     }
+    const MachineSettings settings = within_jerk(stated);
     const AxisTotals totals = axis_totals(settings);
     const double softest = totals.softest;
     limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
