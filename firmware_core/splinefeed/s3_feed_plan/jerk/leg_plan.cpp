@@ -44,6 +44,20 @@ constexpr double leads[] = {0.3, 0.6, 0.85};
 constexpr double lead_to_brake = 0.0;
 constexpr double slower = 16.0; // than expected: the square of the speed that a motion begins with which is to brake
 constexpr int most_scalings = 12;
+constexpr double of_spread = 0.8; // of the jerk limit: what a cell's distance from the curve may take
+
+// What a cell's third derivative is off by takes J = spread b^(3/2). A smaller share of the limit does not lower the b
+// at which nothing is left of it, so a cap does.
+template <Floating R>
+R spread_cap(const JerkCell<R>& cell, R cap_sq) noexcept {
+    const R faster = cap_sq * detail::hardware_square_root(cap_sq);
+    R most{};
+    for (const unsigned k : indices(cell.limits.axes)) {
+        const R spread = larger(cell.end[0][k].third_spread, cell.end[1][k].third_spread);
+        most = larger(most, spread / cell.limits.jerk_mm_s3[k]);
+    }
+    return most * faster > R(of_spread) ? power_two_thirds(R(of_spread) / most) : cap_sq;
+}
 
 } // namespace
 
@@ -60,7 +74,7 @@ void LegPlan<R>::begin(const SpeedState& start) noexcept {
 
 template <Floating R>
 void LegPlan<R>::add(const JerkCell<R>& cell, R at_most_sq) noexcept {
-    const R cap_sq = R(proved<R>) * cell.cap_sq;
+    const R cap_sq = spread_cap(cell, R(proved<R>) * cell.cap_sq);
     LegNode<R>& node = nodes_[cells_];
     LegNode<R>& next = nodes_[cells_ + 1];
     const bool first = cells_ == 0;
