@@ -118,14 +118,14 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
 
 /// Length of the longest cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding that this
 /// causes must stay below `share` of the acceleration and ten times `share` of the feed. It must stay below a
-/// thousandth of the jerk if the jerk is limited (not 0), or six of them where cells would be very short.
+/// thousandth of the jerk if the jerk is limited (not 0), or three of them where cells would be very short.
 constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
     const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
     double length = by_acceleration < by_feed ? by_acceleration : by_feed;
     const double by_jerk = 1e-3 * jerk * segment_s * segment_s * segment_s / (8.0 * error);
-    const double coarser = 6.0 * by_jerk < 0.25 ? 6.0 * by_jerk : 0.25; // so that a window shows enough of the path
+    const double coarser = 3.0 * by_jerk < 0.25 ? 3.0 * by_jerk : 0.25; // so that a window shows enough of the path
     length = jerk > 0.0 && by_jerk < length ? (coarser > by_jerk ? coarser : by_jerk) : length;
     return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
 }
