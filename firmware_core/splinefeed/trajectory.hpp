@@ -84,6 +84,9 @@ public:
     /// Factor of the programmed feed. Values outside 0 to 2 are limited to that range; 0 stops the motion. The
     /// machine's limits still apply.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
+    /// Upper limit of the feed on top of the program and of the override, which may change while the machine moves; 0
+    /// stops the motion. From 65,535 mm/s on there is none, as at the beginning. Resolution: 2^-16 mm/s.
+    void limit_feed(S mm_s) noexcept { steering().limit_feed(mm_s); }
     /// Brakes to standstill on the path, as hard as the axes allow.
     void hold() noexcept { steering().hold(); }
     /// Continues from where the motion was held. If the machine is still braking, it accelerates again at once.
@@ -98,8 +101,13 @@ public:
         if (!asked.stops()) {
             return Activity::running;
         }
-        return asked.aborts() ? (stands() ? Activity::aborted : Activity::aborting)
-                              : (stands() ? Activity::held : Activity::holding);
+        return asked.aborts() ? (at_rest() ? Activity::aborted : Activity::aborting)
+                              : (at_rest() ? Activity::held : Activity::holding);
+    }
+    /// Whether the last segment ended at standstill, or there was none yet: at a stop, held, aborted, finished, or at
+    /// the end of what was known.
+    [[nodiscard]] bool at_rest() const noexcept {
+        return planner_->stages_.plan->standing() && planner_->stream_->at_rest();
     }
     /// Writes a segment of standstill, for a machine that needs a segment all the time: held, aborted, finished or at a
     /// stop. false: the machine moves, or its position is not known because no motion has begun.
@@ -107,10 +115,10 @@ public:
     /// The position where the machine stands, once it is at standstill.
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return planner_->stream_->position(); }
     /// Starts a new program and forgets what is left of the one before. After a motion, the first waypoint must be
-    /// position(); otherwise the segment is refused when it comes: see status(). The override and a hold stay in force.
-    /// Error: still_moving (nothing was changed).
+    /// position(); otherwise the segment is refused when it comes: see status(). The override, the limit of the feed
+    /// and a hold stay in force. Error: still_moving (nothing was changed).
     Status start(CurveSource<S>& curve) noexcept {
-        if (!stands()) {
+        if (!at_rest()) {
             return Error::still_moving;
         }
         const SegmentStream<S>& stream = *planner_->stream_;
@@ -130,9 +138,6 @@ private:
     explicit Trajectory(Planner<S>& planner) noexcept : planner_(&planner) {}
 
     [[nodiscard]] Steering<S>& steering() const noexcept { return planner_->stages_.plan->steering(); }
-    [[nodiscard]] bool stands() const noexcept {
-        return planner_->stages_.plan->standing() && planner_->stream_->at_rest();
-    }
 
     Planner<S>* planner_ = nullptr;
 };
