@@ -53,13 +53,13 @@ public:
     /// abort, and after a refused segment: see status().
     /// @param underrun  drain: for a machine that moves and has no segment left while the input is late. The motion
     ///                  continues along the known path, brakes to standstill at its end, and starts again when more
-    ///                  input comes.
+    ///                  input comes. urgent: the same, and where `work` is spent, the motion goes on by the plan that
+    ///                  there is, which ends at standstill, instead of `busy`. What is emitted then depends on `work`.
     /// @param work      bound of the work of this call, at least 1, for a main loop that has other work as well. A step
     ///                  is a node that is planned or a cell that is entered. A part of the curve that is
     ///                  measured is three. A segment of the curve, and each part of the search for the largest speeds
     ///                  of a new cell, is four. On top comes one feed segment. docs/reference/budgets.md has the
-    ///                  instructions. `busy`: nothing was lost, call again. What is emitted does not depend on it. A
-    ///                  plan that limits the jerk ignores it.
+    ///                  instructions. `busy`: nothing was lost, call again. What is emitted does not depend on it.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait,
                             unsigned work = WorkBudget::unlimited) noexcept {
         SPLINEFEED_ASSERT(work > 0);

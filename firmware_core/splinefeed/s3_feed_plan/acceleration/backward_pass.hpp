@@ -11,7 +11,8 @@ namespace splinefeed {
 
 /// Goes over a window from its end to its front, in as many parts as its caller wants. In every cell that it has
 /// passed, `entry_sq` is the largest entry from which the machine's K after the cell can be reached. `exit_sq` is the
-/// K of the steering there. The window must not change while the pass runs. Cost: a step of the budget for each cell,
+/// K of the steering there. While the pass runs, only the front cell may leave
+/// the window. Cost: a step of the budget for each cell,
 /// and four for each part of the search for the peak of a cell that comes for the first time. A step is two products
 /// and sums for each axis, and as much again under a reduced feed.
 template <Scalar S>
@@ -23,6 +24,11 @@ public:
     /// false: the budget is spent; call again. @pre running(), the window of begin()
     bool run(CellWindow<S>& window, const MotionLimits<S>& limits, WorkBudget& work) noexcept;
     void cancel() noexcept { running_ = false; }
+    /// The front cell has left the window.
+    void pop() noexcept {
+        cells_ -= cells_ > 0 ? 1U : 0U;
+        last_final_ -= last_final_ > 0 ? 1U : 0U;
+    }
 
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// The wish of the operator that the pass counts with.

@@ -54,7 +54,7 @@ public:
     /// Removes the front cell.
     void pop() noexcept;
 
-    Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept override;
+    Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
     /// Prepares this plan to be refined: another plan takes its cells and uses its speeds as upper bounds, without the
@@ -77,6 +77,7 @@ private:
     Pull fill(WorkBudget& work) noexcept;
     Pull plan(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     bool replan(WorkBudget& work) noexcept;
+    [[nodiscard]] bool go_on(UnderrunPolicy underrun) noexcept;
     void begin_pass(bool open_end) noexcept;
     [[nodiscard]] bool run_pass(WorkBudget& work) noexcept;
     void commit() noexcept;

@@ -53,6 +53,12 @@ public:
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// Ends what runs, without a new plan.
     void cancel() noexcept { running_ = searching_ = false; }
+    /// Ends what runs, and commits what it has planned, or a cell of the plan before. @pre planned() > 0
+    void give_up() noexcept {
+        committed_ = running_ && at_ > 0 ? at_ : 1;
+        cancel();
+        complete_ = false;
+    }
     /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
     /// spent; call again. Cost: a step of a search is as many steps of the budget as the leg has cells.
     bool run(WorkBudget& work) noexcept;
