@@ -76,6 +76,14 @@ public:
         WorkBudget budget(work);
         return planner_->feed_plan_->measure_ahead(budget);
     }
+    /// The same, and a plan that limits the jerk also plans what comes behind the committed part, before the motion
+    /// needs it. So a machine that cannot wait for a plan seldom has to. With a jerk limit, what is emitted depends on
+    /// it.
+    bool plan_ahead(unsigned work) noexcept {
+        WorkBudget budget(work);
+        const bool more = planner_->stages_.plan->plan_ahead(budget);
+        return budget.spent() ? more : planner_->feed_plan_->measure_ahead(budget) || more;
+    }
     /// The answer of the last next(); `starved` before the first call.
     [[nodiscard]] Pull state() const noexcept { return planner_->state_; }
 

@@ -30,6 +30,9 @@ void run_urgent(Trajectory<S>& trajectory, const std::vector<Event>& events, Ran
             give(trajectory, events[next++]);
         }
         const unsigned work = random.chance(starved) ? static_cast<unsigned>(random.integer(1, 30)) : 2000U;
+        if (random.chance(0.5)) { // as a machine does that has segments in store
+            static_cast<void>(trajectory.plan_ahead(static_cast<unsigned>(random.integer(1, 300))));
+        }
         const bool rests = trajectory.at_rest();
         switch (trajectory.next(segment, UnderrunPolicy::urgent, work)) {
         case Pull::item: run.segments.push_back(segment); break;
@@ -98,4 +101,35 @@ TEMPLATE_TEST_CASE("late planning slows the motion down on the path, within the 
         }
     }
     CHECK((judged > 0 || first_round() > 0));
+}
+
+TEST_CASE("a plan with jerk that is made ahead is there when the motion needs it", "[stream][urgent]") {
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_jerk_mm_s3 = 30'000.0;
+    }
+    const auto limits = MotionLimits<double>::make(machine).value();
+    Random random(seed);
+    const BezierPath path = random_path(random, 2, 60, 10.0, 0.0, 0.0);
+    std::size_t busy[2] = {};
+    for (const bool ahead : {false, true}) {
+        ListSource<double> source(segments_of<double>(path, {}), 0, 0);
+        AnyTrajectory<double> any(source, limits, 48);
+        SteeredRun run;
+        FeedSegment segment;
+        Pull pull = Pull::busy;
+        for (int calls = 0; pull != Pull::finished && calls < 1'000'000; ++calls) {
+            pull = any.trajectory().next(segment, UnderrunPolicy::wait, 200);
+            busy[ahead ? 1 : 0] += pull == Pull::busy && !any.trajectory().at_rest() ? 1U : 0U;
+            if (pull == Pull::item) {
+                run.segments.push_back(segment);
+            }
+            for (int i = 0; ahead && pull == Pull::item && i < 20 && any.trajectory().plan_ahead(200); ++i) {
+            }
+        }
+        REQUIRE(pull == Pull::finished);
+        require_limits(run, machine, 0.0L);
+    }
+    CHECK(busy[0] > 100);
+    CHECK(10 * busy[1] < busy[0]);
 }

@@ -70,6 +70,8 @@ public:
         WorkBudget unlimited;
         return prepare(underrun, unlimited);
     }
+    /// Plans behind what is committed, before prepare() needs it. false: there is nothing to do now.
+    virtual bool plan_ahead(WorkBudget& work) noexcept = 0;
     /// @pre the last prepare() answered item; the same for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
     [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }

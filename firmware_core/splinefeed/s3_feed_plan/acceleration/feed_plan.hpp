@@ -42,6 +42,7 @@ public:
 
     using MotionPlan<S>::prepare;
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    bool plan_ahead(WorkBudget& work) noexcept override { return measure_ahead(work); }
     /// Measures cells that the plan will ask for, as far as the budget and the window's room go. false: nothing was
     /// left to measure, because the window is full or the input has no more.
     bool measure_ahead(WorkBudget& work) noexcept;

@@ -293,12 +293,35 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
             plan_.begin(pull == Pull::finished);
         }
     }
-    if (plan_.running() && !plan_.run(work) && !go_on(underrun)) {
+    if (plan_.running() && plan_.committed() == 0 && !plan_.run(work) && !go_on(underrun)) {
         return Pull::busy;
     }
     forward_step();
     chosen_ = true;
     return Pull::item;
+}
+
+// From the end of what is committed on, once half of it is travelled: so the machine need not wait for the pass.
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::plan_ahead(WorkBudget& work) noexcept {
+    if (plan_.committed() == 0 || steering_.pending() || steering_.stops() || changing_ || halt_ > 0) {
+        return false;
+    }
+    if (!plan_.running()) {
+        if (4 * plan_.committed() > window_.size()) {
+            return false;
+        }
+        const Pull pull = fill(UnderrunPolicy::wait, work);
+        if (pull != Pull::item && pull != Pull::finished) {
+            return pull == Pull::busy;
+        }
+        if (plan_.complete() || plan_.committed() == window_.size()) {
+            return false;
+        }
+        plan_.begin(pull == Pull::finished);
+    }
+    static_cast<void>(plan_.run(work));
+    return plan_.running();
 }
 
 template <Scalar S, Floating R>

@@ -30,6 +30,7 @@ public:
 
     using MotionPlan<S>::prepare;
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    bool plan_ahead(WorkBudget& work) noexcept override;
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
