@@ -4,13 +4,13 @@
 
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
-      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--check]
+      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--hal FILE] [--check]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
 its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
 overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
-a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --check fails where a limit is
+a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --check fails where a limit is
 exceeded by 1e-4, an end is missed, or a period had no motion.
 """
 import argparse
@@ -112,7 +112,7 @@ net atspeed spindle.0.on => spindle.0.at-speed
 """
 
 
-def write_machine(folder, axes, period_us, tpmod):
+def write_machine(folder, axes, period_us, tpmod, more_hal):
     text = INI.format(period_ns=period_us * 1000, axes=axes, joints=len(axes), tpmod=tpmod and "TPMOD = " + tpmod)
     nets = ""
     for i, axis in enumerate(axes):
@@ -123,14 +123,14 @@ def write_machine(folder, axes, period_us, tpmod):
         nets += f"net p{i} axis.{axis.lower()}.pos-cmd => sampler.0.pin.{i}\n"
     n = len(axes)
     (folder / "sim.ini").write_text(text)
-    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 4), cfg="f" * (n + 1) + "sbb", nets=nets))
+    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 4), cfg="f" * (n + 1) + "sbb", nets=nets) + more_hal)
     (folder / "sim.var").write_text("")
     (folder / "sim.tbl").write_text("T1 P1 D1\n")
     shutil.copy(HERE / "linuxcnc_driver.py", folder / "driver.py")
     os.chmod(folder / "driver.py", 0o755)
 
 
-def run(program, axes, period_us, module, parameters, actions, timeout_s):
+def run(program, axes, period_us, module, parameters, actions, timeout_s, more_hal):
     """One run: what the driver tells, with the samples as an array of a row a period."""
     import numpy
 
@@ -143,7 +143,7 @@ def run(program, axes, period_us, module, parameters, actions, timeout_s):
             shutil.copytree(MODULES, modules)
             shutil.copy(module, modules / "splinefeed_tp.so")
             subprocess.run(["chmod", "-R", "a+rX", name], check=True)
-        write_machine(folder, axes, period_us, module and f"splinefeed_tp axes={axes} {parameters}")
+        write_machine(folder, axes, period_us, module and f"splinefeed_tp axes={axes} {parameters}", more_hal)
         (folder / "program.ngc").write_text(program)
         job = {"actions": actions, "timeout_s": timeout_s, "figures": FIGURES, "columns": len(axes) + len(OTHERS)}
         (folder / "job.json").write_text(json.dumps(job))
@@ -255,7 +255,7 @@ def main():
     parser.add_argument("--axes", default="")
     for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
                                 ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
-                                ("keep", pathlib.Path, None), ("timeout", int, 300)):
+                                ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
@@ -277,7 +277,8 @@ def main():
             steers = options.steer is not None
             actions = random_actions(options.steer + seed, tool_s or 8.0) if steers else []
             sent = begun_with("M52 P1", text) if steers else text
-            result = run(sent, axes, options.period, options.module.resolve() if ours else None, parameters, actions, options.timeout)
+            result = run(sent, axes, options.period, options.module.resolve() if ours else None, parameters, actions, options.timeout,
+                         options.hal.read_text() if options.hal else "")
             row = [program.name, planner]
             problem = "; ".join(dict.fromkeys([result["problem"]] * bool(result["problem"]) + result["said"]))
             if "samples" in result:

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double steps_per_mm = 1024.0; // +-2^21 mm; a segment's unit is 3e-13 mm
 constexpr int fewest_ahead = 3;         // segments that are ready: two are needed, one is made
+constexpr int probing_with_jerk = 20;   // the least that a search for a stop usually needs
 constexpr unsigned part = 64;           // steps of planning between two looks at the clock
 constexpr double no_limit_mm_s = 65536.0;
 constexpr double at_rest = 0.3; // of the time without a new move: a stop more costs less there
@@ -65,6 +66,7 @@ void TpMotion::create(const tpc_settings& settings, const tpc_machine& machine) 
     settings_ = settings;
     settings_.ahead = smaller(larger(settings.ahead, fewest_ahead), static_cast<int>(ring_size));
     machine_ = machine;
+    rules_ = path_rules(settings_of(machine));
 }
 
 Mm TpMotion::mm_of(const double* position) const noexcept {
@@ -95,7 +97,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
     element.mode = mode_of(from.mode);
     element.stop_at_end = from.stops != 0;
     element.tolerance_mm = from.tolerance * machine_.mm_per_unit;
-    element.chain_tolerance_mm = element.tolerance_mm;
+    element.chain_tolerance_mm = element.tolerance_mm * rules_.chain_quarters / 4.0;
     out.to = mm_of(from.to);
     bool linear = false;
     double length_sq = 0.0;
@@ -160,8 +162,8 @@ Status TpMotion::begin_path() noexcept {
         return Error::planner_unsuited;
     }
     limits_ = *made;
-    PathRules<double> rules = path_rules(settings);
-    TolerancePath<double>& path = path_.build(machine_.axes, rules);
+    rules_ = path_rules(settings);
+    TolerancePath<double>& path = path_.build(machine_.axes, rules_);
     PerAxis<Position> start{};
     for (const unsigned k : indices(machine_.axes)) {
         start[k] = position_from_mm(at_[k]);
@@ -265,24 +267,30 @@ bool TpMotion::released() noexcept {
     return idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
+// A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
+// ring: until that is full, the motion goes on by the old plan.
 void TpMotion::plan() noexcept {
     const long long end = settings_.now_ns() + share_ns_;
-    ahead_ = static_cast<unsigned>(move(first_).probes ? fewest_ahead : settings_.ahead);
+    const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
+    ahead_ = static_cast<unsigned>(move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead);
     static_cast<void>(push_moves());
     UnderrunPolicy policy = UnderrunPolicy::wait;
     unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
-        const bool needed = ring_count_ < 2 && !trajectory_.at_rest();
+        const bool moves = !trajectory_.at_rest();
+        const bool needed = ring_count_ < 2 && moves;
         if (over && !needed) {
             unfinished_ = true;
             return;
         }
+        refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
+        const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
-        const Pull pull = trajectory_.next(out, over ? UnderrunPolicy::urgent : policy, part);
+        const Pull pull = trajectory_.next(out, urgent ? UnderrunPolicy::urgent : policy, urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
-            figures_.urgent += over ? 1U : 0U;
+            figures_.urgent += urgent ? 1U : 0U;
             policy = UnderrunPolicy::wait;
         } else if (pull == Pull::busy) {
             ++figures_.busy;
@@ -304,7 +312,8 @@ void TpMotion::plan() noexcept {
             }
         }
     }
-    while (settings_.now_ns() < end && trajectory_.measure_ahead(part)) {
+    refills_ = false;
+    while (settings_.now_ns() < end && trajectory_.plan_ahead(part)) {
     }
 }
 

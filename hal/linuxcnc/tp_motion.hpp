@@ -83,6 +83,7 @@ private:
     JerkPlanner<double> jerk_{window_, {cells_, nodes_, scratch_}};
     Slot<TolerancePath<double>> path_;
     MotionLimits<double> limits_;
+    PathRules<double> rules_;
     Trajectory<double> trajectory_;
 
     // Sequence numbers of moves count up and wrap around.
@@ -111,6 +112,7 @@ private:
     bool waits_ = false;    // at standstill before move pushed_
     bool may_begin_ = false;
     bool has_now_ = false;
+    bool refills_ = false;    // the ring, by the old plan
     bool unfinished_ = false; // the share of the period was not enough
 };
 
