@@ -60,7 +60,7 @@ def wait(condition, seconds):
 
 
 def idle():
-    return status.interp_state == linuxcnc.INTERP_IDLE and status.inpos and status.queue == 0 and status.state == linuxcnc.RCS_DONE
+    return status.interp_state == linuxcnc.INTERP_IDLE and status.inpos and status.queue == 0 and status.state != linuxcnc.RCS_EXEC
 
 
 def act(what, value):

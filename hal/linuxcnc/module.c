@@ -50,7 +50,7 @@ int module_has_axis(int k) {
     return 0;
 }
 
-int module_first_axis(void) { return place_of(axes[0]) < 3 ? place_of(axes[0]) : 0; }
+static int first_axis(void) { return place_of(axes[0]) < 3 ? place_of(axes[0]) : 0; }
 
 double module_tolerance(void) { return tolerance_um * 1e-3 / (inch ? 25.4 : 1.0); }
 
@@ -73,6 +73,21 @@ void module_axes(struct tpc_machine *machine) {
         machine->axis[machine->axes++] = k;
     }
     machine->mm_per_unit = inch ? 25.4 : 1.0;
+}
+
+/* One of X Y Z that the machine does not have never moves: it gets the limits of the first. */
+void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
+                   double jerk_elsewhere) {
+    const int first = first_axis();
+    module_axes(machine);
+    machine->period_s = period_s;
+    for (int k = 0; k < machine->axes; ++k) {
+        const int axis = k >= 3 || module_has_axis(k) ? machine->axis[k] : first;
+        machine->velocity[k] = velocity(axis);
+        machine->acceleration[k] = acceleration(axis);
+        const double jerk_of_axis = machine->jerk[axis < 3 ? axis : k];
+        machine->jerk[k] = jerk_of_axis > 0.0 ? jerk_of_axis : jerk_elsewhere;
+    }
 }
 
 /* A starved period looks at a clock that jumps. */

@@ -54,26 +54,13 @@ static void to_array(const EmcPose *p, double *values) {
     for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
 }
 
-/* The limits of the planned axes. One of X Y Z that the machine does not have never moves: it gets those of the first. */
 static void read_limits(double period_s) {
-    module_axes(&machine);
-    machine.period_s = period_s;
-    for (int k = 0; k < machine.axes; ++k) {
-        machine.velocity[k] = velocity_limit(machine.axis[k]);
-        machine.acceleration[k] = acceleration_limit(machine.axis[k]);
-    }
-    for (int k = 0; k < 3; ++k) {
-        if (!module_has_axis(k)) {
-            machine.velocity[k] = machine.velocity[module_first_axis()];
-            machine.acceleration[k] = machine.acceleration[module_first_axis()];
-            machine.jerk[k] = machine.jerk[module_first_axis()];
-        }
-    }
 #ifdef SPLINEFEED_TP_JERK
-    for (int k = 0; k < machine.axes; ++k) {
-        if (status->planner_type == 1 && machine.jerk[k] == 0.0 && status->jerk > 0.0) machine.jerk[k] = status->jerk;
-    }
+    const double jerk = status->planner_type == 1 ? status->jerk : 0.0;
+#else
+    const double jerk = 0.0;
 #endif
+    module_limits(&machine, period_s, velocity_limit, acceleration_limit, jerk);
 }
 
 /* ------------------------------------------------------------------ ends and beginnings */
@@ -82,6 +69,9 @@ static void show_rest(TP_STRUCT *tp) {
     status->enables_queued = status->enables_new;
     status->requested_vel = 0.0;
     status->current_vel = 0.0;
+#ifdef SPLINEFEED_TP_JERK
+    status->current_acc = status->current_jerk = 0.0;
+#endif
     status->spindleSync = 0;
     memset(&status->dtg, 0, sizeof status->dtg);
     tp->motionType = 0;
@@ -312,6 +302,18 @@ static int may_begin(TP_STRUCT *tp) {
     return 1;
 }
 
+/* 2.10 shows the acceleration and the jerk along the path, too. */
+static void show_speed(const TP_STRUCT *tp, double speed) {
+#ifdef SPLINEFEED_TP_JERK
+    const double acceleration = (speed - status->current_vel) / tp->cycleTime;
+    status->current_jerk = (acceleration - status->current_acc) / tp->cycleTime;
+    status->current_acc = acceleration;
+#else
+    (void)tp;
+#endif
+    status->current_vel = speed;
+}
+
 static void show_move(TP_STRUCT *tp) {
     const struct told *q = &told[out.first % tpc_capacity];
     tp->depth = (int)(out.last - out.first);
@@ -321,7 +323,7 @@ static void show_move(TP_STRUCT *tp) {
     tp->motionType = q->canon;
     status->enables_queued = q->enables;
     status->requested_vel = q->vel * status->net_feed_scale;
-    status->current_vel = out.speed;
+    show_speed(tp, out.speed);
     status->spindleSync = q->synced;
     double left = 0.0;
     for (int k = 0; k < tpc_axes; ++k) {
@@ -336,7 +338,7 @@ static double ratio_now(void) {
     double ratio = status->net_feed_scale;
     const struct told *q = &told[out.first % tpc_capacity];
     if (out.first != out.last && q->synced) {
-        ratio *= fabs(status->spindle_status[q->synced - 1].spindleSpeedIn) / per_rev_nominal;
+        ratio *= 60.0 * fabs(status->spindle_status[q->synced - 1].spindleSpeedIn) / per_rev_nominal; /* of 1/s and 1/min */
     }
     return ratio;
 }

@@ -25,8 +25,10 @@
 /* module.c */
 /* The planned axes, their jerk limits and units. */
 void module_axes(struct tpc_machine *machine);
+/* The same, and their limits of this moment. @param jerk_elsewhere of axes without a jerk limit of their own; 0: none */
+void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
+                   double jerk_elsewhere);
 int module_has_axis(int k); /* k: a place in X Y Z A B C U V W */
-int module_first_axis(void);
 double module_tolerance(void); /* of G64 without P, in machine units */
 void module_create(struct tpc_machine *machine);
 /* What a period with moves took. */

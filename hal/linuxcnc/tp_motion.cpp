@@ -12,7 +12,7 @@ namespace {
 constexpr double steps_per_mm = 1024.0; // +-2^21 mm; a segment's unit is 3e-13 mm
 constexpr int fewest_ahead = 3;         // segments that are ready: two are needed, one is made
 constexpr int probing_with_jerk = 20;   // the least that a search for a stop usually needs
-constexpr unsigned part = 64;           // steps of planning between two looks at the clock
+constexpr unsigned part = 16;           // steps of planning between two looks at the clock
 constexpr double no_limit_mm_s = 65536.0;
 constexpr double at_rest = 0.3; // of the time without a new move: a stop more costs less there
 constexpr double same_place_mm = 1e-6;

@@ -2,7 +2,7 @@
 // TpMotion: queued moves to the position of every servo period, by the motion core.
 //
 //   add() ──► queue ──► TolerancePath ──► Trajectory ──► ring of segments ──► position
-//             2048      64 moves          256 cells      `ahead`             one a period
+//             2048      64 moves          512 cells      `ahead`             one a period
 //
 // In each period planning goes on until its share of the period is over, so the next pass of the plan begins as many
 // periods before its result is needed as segments are ready. Where the ring is empty all the same, the motion goes on
@@ -17,6 +17,10 @@
 #include "splinefeed/trajectory.hpp"
 
 #include <array>
+
+#ifndef SPLINEFEED_TP_WINDOW
+#define SPLINEFEED_TP_WINDOW 512 // cells of look-ahead; a quarter with a jerk limit
+#endif
 
 namespace splinefeed::linuxcnc {
 
@@ -43,8 +47,8 @@ public:
     [[nodiscard]] const tpc_figures& figures() const noexcept { return figures_; }
 
 private:
-    static constexpr std::size_t window_cells = 256;
-    static constexpr std::size_t jerk_cells = 64;
+    static constexpr std::size_t window_cells = SPLINEFEED_TP_WINDOW;
+    static constexpr std::size_t jerk_cells = window_cells / 4;
     static constexpr std::size_t all_jerk_cells = jerk_cells + jerk_cells / 3;
     static constexpr unsigned ring_size = 64;
 
