@@ -42,7 +42,6 @@ Status Motion::begin(const splinefeed::Waypoint<Real>& first) noexcept {
     loader_ = splinefeed::DdaLoader(static_cast<int>(axes), tick_ticks);
     steps_.restart();
     program_ = Program::open;
-    at_rest_ = true;
     moved_ = finished_ = hold_asked_ = false;
     energise_drives();
     return {};
@@ -133,7 +132,7 @@ void Motion::plan() noexcept {
         return;
     }
     Pull pull = trajectory_.next(segment_, UnderrunPolicy::wait, work_a_call);
-    if (pull == Pull::starved && !at_rest_ && steps_.level() <= 1U << lookahead.reserve_log2) {
+    if (pull == Pull::starved && !trajectory_.at_rest() && steps_.level() <= 1U << lookahead.reserve_log2) {
         pull = trajectory_.next(segment_, UnderrunPolicy::drain, work_a_call);
     }
     if (pull == Pull::item) {
@@ -145,8 +144,7 @@ void Motion::plan() noexcept {
 void Motion::emit() noexcept {
     loader_.take(segment_);
     if (loader_.next(part_.ticks)) {
-        at_rest_ = segment_.ends_at_rest();
-        part_.rest = at_rest_;
+        part_.rest = trajectory_.at_rest();
         part_.end = loader_.end_count();
         steps_.push(part_);
         moved_ = true;

@@ -79,7 +79,6 @@ private:
     std::uint32_t underruns_ = 0; // those that were reported
     Program program_ = Program::none;
     Stop stopped_ = Stop::none; // what was reported
-    bool at_rest_ = true;       // the last part ends at standstill
     bool moved_ = false;        // since the last time that waypoints were missing
     bool finished_ = false;     // the trajectory has no more segments
     bool hold_asked_ = false;   // and not reported yet

@@ -53,13 +53,13 @@ public:
     /// abort, and after a refused segment: see status().
     /// @param underrun  drain: for a machine that moves and has no segment left while the input is late. The motion
     ///                  continues along the known path, brakes to standstill at its end, and starts again when more
-    ///                  input comes.
+    ///                  input comes. urgent: the same, and where `work` is spent, the motion goes on by the plan that
+    ///                  there is, which ends at standstill, instead of `busy`. What is emitted then depends on `work`.
     /// @param work      bound of the work of this call, at least 1, for a main loop that has other work as well. A step
     ///                  is a node that is planned or a cell that is entered. A part of the curve that is
     ///                  measured is three. A segment of the curve, and each part of the search for the largest speeds
     ///                  of a new cell, is four. On top comes one feed segment. docs/reference/budgets.md has the
-    ///                  instructions. `busy`: nothing was lost, call again. What is emitted does not depend on it. A
-    ///                  plan that limits the jerk ignores it.
+    ///                  instructions. `busy`: nothing was lost, call again. What is emitted does not depend on it.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait,
                             unsigned work = WorkBudget::unlimited) noexcept {
         SPLINEFEED_ASSERT(work > 0);
@@ -76,6 +76,14 @@ public:
         WorkBudget budget(work);
         return planner_->feed_plan_->measure_ahead(budget);
     }
+    /// The same, and a plan that limits the jerk also plans what comes behind the committed part, before the motion
+    /// needs it. So a machine that cannot wait for a plan seldom has to. With a jerk limit, what is emitted depends on
+    /// it.
+    bool plan_ahead(unsigned work) noexcept {
+        WorkBudget budget(work);
+        const bool more = planner_->stages_.plan->plan_ahead(budget);
+        return budget.spent() ? more : planner_->feed_plan_->measure_ahead(budget) || more;
+    }
     /// The answer of the last next(); `starved` before the first call.
     [[nodiscard]] Pull state() const noexcept { return planner_->state_; }
 
@@ -84,6 +92,9 @@ public:
     /// Factor of the programmed feed. Values outside 0 to 2 are limited to that range; 0 stops the motion. The
     /// machine's limits still apply.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
+    /// Upper limit of the feed on top of the program and of the override, which may change while the machine moves; 0
+    /// stops the motion. From 65,535 mm/s on there is none, as at the beginning. Resolution: 2^-16 mm/s.
+    void limit_feed(S mm_s) noexcept { steering().limit_feed(mm_s); }
     /// Brakes to standstill on the path, as hard as the axes allow.
     void hold() noexcept { steering().hold(); }
     /// Continues from where the motion was held. If the machine is still braking, it accelerates again at once.
@@ -98,8 +109,13 @@ public:
         if (!asked.stops()) {
             return Activity::running;
         }
-        return asked.aborts() ? (stands() ? Activity::aborted : Activity::aborting)
-                              : (stands() ? Activity::held : Activity::holding);
+        return asked.aborts() ? (at_rest() ? Activity::aborted : Activity::aborting)
+                              : (at_rest() ? Activity::held : Activity::holding);
+    }
+    /// Whether the last segment ended at standstill, or there was none yet: at a stop, held, aborted, finished, or at
+    /// the end of what was known.
+    [[nodiscard]] bool at_rest() const noexcept {
+        return planner_->stages_.plan->standing() && planner_->stream_->at_rest();
     }
     /// Writes a segment of standstill, for a machine that needs a segment all the time: held, aborted, finished or at a
     /// stop. false: the machine moves, or its position is not known because no motion has begun.
@@ -107,10 +123,10 @@ public:
     /// The position where the machine stands, once it is at standstill.
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return planner_->stream_->position(); }
     /// Starts a new program and forgets what is left of the one before. After a motion, the first waypoint must be
-    /// position(); otherwise the segment is refused when it comes: see status(). The override and a hold stay in force.
-    /// Error: still_moving (nothing was changed).
+    /// position(); otherwise the segment is refused when it comes: see status(). The override, the limit of the feed
+    /// and a hold stay in force. Error: still_moving (nothing was changed).
     Status start(CurveSource<S>& curve) noexcept {
-        if (!stands()) {
+        if (!at_rest()) {
             return Error::still_moving;
         }
         const SegmentStream<S>& stream = *planner_->stream_;
@@ -130,9 +146,6 @@ private:
     explicit Trajectory(Planner<S>& planner) noexcept : planner_(&planner) {}
 
     [[nodiscard]] Steering<S>& steering() const noexcept { return planner_->stages_.plan->steering(); }
-    [[nodiscard]] bool stands() const noexcept {
-        return planner_->stages_.plan->standing() && planner_->stream_->at_rest();
-    }
 
     Planner<S>* planner_ = nullptr;
 };

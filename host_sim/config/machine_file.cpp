@@ -84,8 +84,7 @@ public:
         machine.spindle = read_spindle(check_, root);
         machine.lines = read_program_lines(check_, root, machine.spindle);
         axes(root, machine);
-        machine.tolerances.sharpest = sharpest_corner(machine.settings);
-        machine.tolerances.jerk_limited = axis_totals(machine.settings).smoothest > 0.0;
+        machine.tolerances.rules = path_rules(machine.settings, machine.tolerances.joint_mm);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
             machine.tolerances.rotary[k] = machine.settings.axis[k].rotary;
         }

@@ -10,10 +10,6 @@ namespace splinefeed::host {
 
 namespace {
 
-// Of joint_mm, without a jerk limit. The samples leave the path by up to 0.35 um besides: with the usual micrometre the
-// motion, too, keeps joint_mm. It costs no time.
-constexpr double of_kink = 0.625;
-
 template <Scalar S>
 void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerAxis<S>& out) {
     if (!given) {
@@ -59,12 +55,7 @@ PathCurve<S>::PathCurve(const PathInput& input) : axes_(static_cast<int>(input.a
     take_tangent(choice.start_tangent, axes_, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, axes_, tangents.has_end, tangents.end);
     if (input.within_tolerance()) {
-        const PathTolerances& tolerances = input.tolerances();
-        source_ = &curve_.template emplace<TolerancePath<S>>(
-            axes_, from_double<S>(tolerances.jerk_limited ? tolerances.joint_mm : of_kink * tolerances.joint_mm),
-            SharpestBlend<S>{from_double<S>(tolerances.sharpest.curvature_1_mm),
-                             from_double<S>(tolerances.sharpest.fading), from_double<S>(tolerances.sharpest.half_sine)},
-            tolerances.jerk_limited);
+        source_ = &curve_.template emplace<TolerancePath<S>>(axes_, rules_cast<S>(input.tolerances().rules));
         return;
     }
     Seam seam = choice.closed ? Seam::repeated : Seam::open;

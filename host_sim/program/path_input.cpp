@@ -170,9 +170,7 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     GcodeSettings out = read_gcode_arguments(arguments.gcode);
     out.simulated = use != PathUse::followed;
     out.tolerance_mm = tolerances_.programmed_mm;
-    // The joints at the ends of a chain have the rest of P. Without a jerk limit they cost more time than what a chain
-    // gains with all of it; with one that depends on the program.
-    out.chain_quarters = tolerances_.jerk_limited ? 4 : 3;
+    out.chain_quarters = tolerances_.rules.chain_quarters;
     out.rapid_tolerance_mm = tolerances_.rapid_mm;
     out.axes = axes_;
     out.max_feed_mm_s = machine.max_feed_mm_s;

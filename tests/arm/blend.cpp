@@ -117,7 +117,7 @@ struct Chain {
 
 template <class Moves>
 void run() {
-    auto& path = *new (memory) Path(axes, literal<Fixed>(0.001));
+    auto& path = *new (memory) Path(axes, {literal<Fixed>(0.001)});
     Moves moves;
     Hash hash;
     bool good = path.start({}).ok();

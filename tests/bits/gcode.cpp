@@ -163,7 +163,7 @@ private:
     PathElement<S> waiting_{};
     bool waits_ = false;
     std::size_t line_ = 0;
-    TolerancePath<S> path_{axes, literal<S>(0.001)};
+    TolerancePath<S> path_{axes, {literal<S>(0.001)}};
     std::array<PlannedCell<S>, 32> window_{};
     AccelerationPlanner<S> planner_{window_};
 };

@@ -135,7 +135,7 @@ TEMPLATE_TEST_CASE("a corner whose blend would be too sharp is a stop", "[blende
     for (const double tolerance : {0.1, 0.05}) {
         for (const Real degrees : {30.0L, 45.0L}) {
             const MoveProgram program = corner(degrees, 10.0L, 10.0L, tolerance);
-            TolerancePath<S> path(2, from_double<S>(0.001), {from_double<S>(0.5), S{}});
+            TolerancePath<S> path(2, {from_double<S>(0.001), {from_double<S>(0.5), S{}}});
             REQUIRE(path.start(position_of<S>(program.start)).ok());
             REQUIRE(path.push(element_of<S>(program.moves[0], 2)).ok());
             REQUIRE(path.push(element_of<S>(program.moves[1], 2)).ok());
@@ -159,7 +159,7 @@ TEMPLATE_TEST_CASE("how sharp a blend may be depends on the turn", "[blended_pat
     };
     for (const Case& c : {Case{60.0L, 8.3, 1}, {60.0L, 7.7, 0}, {90.0L, 2.8, 1}, {90.0L, 2.5, 0}, {120.0L, 0.001, 1}}) {
         const MoveProgram program = corner(c.degrees, 10.0L, 10.0L, 0.01);
-        TolerancePath<S> path(2, from_double<S>(0.001), {from_double<S>(c.most_1_mm), from_double<S>(1.6)});
+        TolerancePath<S> path(2, {from_double<S>(0.001), {from_double<S>(c.most_1_mm), from_double<S>(1.6)}});
         REQUIRE(path.start(position_of<S>(program.start)).ok());
         REQUIRE(path.push(element_of<S>(program.moves[0], 2)).ok());
         REQUIRE(path.push(element_of<S>(program.moves[1], 2)).ok());

@@ -48,7 +48,7 @@ struct Bench {
         return pull;
     }
 
-    TolerancePath<double> path{2, 0.001};
+    TolerancePath<double> path{2, {0.001}};
     std::vector<CurveSegment<double>> segments;
 };
 

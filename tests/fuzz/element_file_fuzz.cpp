@@ -22,7 +22,7 @@ constexpr int axes = 4;
 template <Scalar S>
 void require_chain(const ElementProgram& program) {
     constexpr std::size_t most_segments = 100'000; // of arcs with many turns
-    TolerancePath<S> path(axes, from_double<S>(0.001));
+    TolerancePath<S> path(axes, {from_double<S>(0.001)});
     if (!path.start(program.start()).ok()) {
         std::abort();
     }

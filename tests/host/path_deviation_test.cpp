@@ -52,7 +52,7 @@ CurveSegment<double> segment_of(const std::vector<std::array<double, 2>>& points
 
 template <Scalar S>
 void require_kept(const ElementProgram& program, int axes, double joint_mm) {
-    TolerancePath<S> path(axes, from_double<S>(joint_mm));
+    TolerancePath<S> path(axes, {from_double<S>(joint_mm)});
     PathDeviation deviation(machine_of(axes, std::min(axes, 3)), joint_mm, std::same_as<S, float> ? 1e-6 : 0.0);
     REQUIRE(path.start(program.start()).ok());
     deviation.start(program.start());
@@ -244,7 +244,7 @@ TEST_CASE("chains keep their own tolerance, and corners beside them that of thei
         const double y = 0.3 * std::sin(75.0);
         moves.push_back(line_to(40.0, y, tolerance));
         moves.push_back(line_to(40.0, y + 10.0, tolerance));
-        TolerancePath<double> path(2, 0.0);
+        TolerancePath<double> path(2, {});
         PathDeviation wave(machine_of(2, 2), 0.0, 0.0);
         PathDeviation all(machine_of(2, 2), 0.0, 0.0);
         REQUIRE(path.start({}).ok());
@@ -328,7 +328,7 @@ TEST_CASE("arcs whose radius grows leave their spirals by what their quintics ex
         arc.to = {position_from_mm((radius + growth) * std::cos(angle)),
                   position_from_mm((radius + growth) * std::sin(angle)), position_from_mm(rise)};
         const PerAxis<Position> start{position_from_mm(radius)};
-        TolerancePath<double> path(3, 0.0);
+        TolerancePath<double> path(3, {});
         PathDeviation deviation(machine_of(3, 3), 0.0, 0.0);
         REQUIRE(path.start(start).ok());
         deviation.start(start);

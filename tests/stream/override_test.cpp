@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Overrides of the feed, against motions without.
+// Overrides and upper limits of the feed, against motions without.
 #include "support/catch.hpp"
 #include "support/emitted.hpp"
 #include "support/steered_run.hpp"
@@ -36,5 +36,45 @@ TEMPLATE_TEST_CASE("an override that hardly changes makes the motion no slower, 
             CAPTURE(static_cast<double>(at), static_cast<double>(v));
             REQUIRE(v <= real(path[static_cast<std::size_t>(at / 2.0L)].feed_mm_s) * 1.0001L);
         }
+    }
+}
+
+TEMPLATE_TEST_CASE("an upper limit of the feed is followed while the machine moves, and nothing else changes",
+                   "[stream][steering]", double, float, Fixed) {
+    using S = TestType;
+    for (const double jerk : {0.0, 30'000.0}) {
+        if (std::same_as<S, float> && jerk > 0.0) {
+            continue;
+        }
+        MachineSettings machine = machine_of(1, 200.0, 1000.0, 100.0);
+        machine.axis[0].max_jerk_mm_s3 = jerk;
+        const BezierPath path{line_shape(1, 3, {60.0}), line_shape(1, 3, {40.0})};
+        const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+        // Ten times the feed is no limit; then 30 mm/s beside an override of 2; then none again; then a stop.
+        const SteeredRun run = run_steered<S>(path, machine, 256,
+                                              {{50, Order::limit_feed, 1000.0},
+                                               {300, Order::override_feed, 2.0},
+                                               {300, Order::limit_feed, 30.0},
+                                               {600, Order::limit_feed, 65'536.0},
+                                               {601, Order::override_feed, 1.0},
+                                               {700, Order::limit_feed, 0.0},
+                                               {1000, Order::limit_feed, 100.0}});
+        CAPTURE(jerk);
+        REQUIRE(run.finished);
+        require_limits(run, machine, std::same_as<S, float> ? 1e-3L : 0.0L);
+        CHECK(run.segments.back().end == plain.segments.back().end);
+        const auto speed = [&](std::size_t i) {
+            return static_cast<double>(run.segments[i].end_velocity[0]) /
+                   static_cast<double>(units_per_mm(machine.axis[0]) * 1e-3L);
+        };
+        for (std::size_t i = 0; i < 300; ++i) {
+            const Real apart = static_cast<Real>(run.segments[i].end[0] - plain.segments[i].end[0]);
+            REQUIRE(std::fabs(apart / units_per_mm(machine.axis[0])) < 0.05L); // a change ends cells sooner
+        }
+        CHECK(speed(299) == Approx(100.0).epsilon(2e-3));
+        CHECK(speed(590) == Approx(30.0).epsilon(2e-3));
+        CHECK(speed(590) <= 30.0);
+        CHECK(speed(690) > 90.0);
+        CHECK(speed(950) == 0.0);
     }
 }

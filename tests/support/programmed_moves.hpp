@@ -261,7 +261,7 @@ struct BlendedRun {
 /// Pushes and pulls in random order if there is a seed.
 template <Scalar S>
 BlendedRun<S> blended(const MoveProgram& program, std::uint64_t seed = 0) {
-    splinefeed::TolerancePath<S> path(program.axes, from_double<S>(program.joint_tolerance_mm));
+    splinefeed::TolerancePath<S> path(program.axes, {from_double<S>(program.joint_tolerance_mm)});
     REQUIRE(path.start(position_of<S>(program.start)).ok());
     Random random(seed);
     BlendedRun<S> run;

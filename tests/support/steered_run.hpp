@@ -10,7 +10,7 @@
 
 namespace splinefeed_test {
 
-enum class Order { hold, resume, abort, override_feed };
+enum class Order { hold, resume, abort, override_feed, limit_feed };
 
 /// What is asked for before a segment is made.
 struct Event {
@@ -35,6 +35,7 @@ void give(Trajectory<S>& trajectory, const Event& event) {
     case Order::resume: trajectory.resume(); break;
     case Order::abort: trajectory.abort(); break;
     case Order::override_feed: trajectory.override_feed(from_double<S>(event.value)); break;
+    case Order::limit_feed: trajectory.limit_feed(from_double<S>(event.value)); break;
     }
 }
 

@@ -17,11 +17,11 @@
 
 namespace splinefeed {
 
-inline constexpr int max_axes = SPLINEFEED_MAX_AXES;     ///< largest number of axes, 1 to 6
+inline constexpr int max_axes = SPLINEFEED_MAX_AXES;     ///< largest number of axes, 1 to 9
 inline constexpr int max_degree = SPLINEFEED_MAX_DEGREE; ///< largest degree of a Bezier segment, 3 to 9
 inline constexpr auto all_axes = static_cast<unsigned>(max_axes);
 
-static_assert(max_axes >= 1 && max_axes <= 6, "a machine has one to six axes");
+static_assert(max_axes >= 1 && max_axes <= 9, "a machine has one to six axes, some have nine");
 static_assert(max_degree >= 3 && max_degree <= 9, "the curve methods emit cubics at least, degree 9 at most");
 
 /// One value per axis; only the first `axes` entries are meaningful.

@@ -77,11 +77,11 @@ template <Floating S>
     return Fixed::from_raw(static_cast<std::int64_t>((twice + 1U) >> 1));
 }
 
-/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6. The error is at most (n+1)/2 ulp if every component is zero or
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 9. The error is at most (n+1)/2 ulp if every component is zero or
 /// between 2^-50 and 2^50 in magnitude; n/2 ulp of it come from the sum of squares.
 template <Floating S>
 [[nodiscard]] constexpr S norm(const S* v, int n) noexcept {
-    SPLINEFEED_ASSERT(n >= 0 && n <= 6);
+    SPLINEFEED_ASSERT(n >= 0 && n <= 9);
     S sum{0};
     for (int i = 0; i < n; ++i) {
         sum += v[i] * v[i];
@@ -89,16 +89,16 @@ template <Floating S>
     return square_root(sum);
 }
 
-/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6, |v[i]| < 2^30. The sum of squares is exact and the root is
-/// rounded once: error <= 1/2 ulp. A length of 2^31 or more, possible from n = 5, gives the largest number. Cost: four
-/// multiplies per component and a square root.
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 9, |v[i]| < 2^30, with nine 2^29. The sum of squares is exact and
+/// the root is rounded once: error <= 1/2 ulp. A length of 2^31 or more, possible from n = 5, gives the largest number.
+/// Cost: four multiplies per component and a square root.
 [[nodiscard]] constexpr Fixed norm(const Fixed* v, int n) noexcept {
-    SPLINEFEED_ASSERT(n >= 0 && n <= 6);
+    SPLINEFEED_ASSERT(n >= 0 && n <= 9);
     Wide sum{};
     for (int i = 0; i < n; ++i) {
         const std::uint64_t size = detail::magnitude(v[i].raw());
         SPLINEFEED_ASSERT((size >> 62) == 0);
-        sum = add(sum, multiply(size, size)); // six squares below 2^124 stay below 2^127
+        sum = add(sum, multiply(size, size)); // eight squares below 2^124 stay below 2^127
     }
     return Fixed::from_raw(detail::with_sign(square_root_rounded(sum), false).raw);
 }

@@ -209,7 +209,7 @@ private:
     return x.raw() < 0 ? -x : x;
 }
 
-/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6, rounded to nearest; saturates. Cost: a multiply per component and
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 9, rounded to nearest; saturates. Cost: a multiply per component and
 /// a root of 64 bits.
 [[nodiscard]] constexpr ShortFixed norm(const ShortFixed* v, int n) noexcept {
     std::uint64_t sum = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s1_blended_path/joint.hpp"
+#include "splinefeed/s1_blended_path/path_rules.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
 
 namespace splinefeed {
@@ -25,16 +26,12 @@ struct JointCounts {
 template <Scalar S>
 class BlendedPath final : public CurveSource<S> {
 public:
-    /// @param joint_tolerance_mm  of exact paths, where they turn by less than a degree or only their curvature jumps;
-    /// 0: such joints stay
-    /// @param rounds_curvature  false: the latter stay. Without a jerk limit they cost nothing
-    explicit BlendedPath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {},
-                         bool rounds_curvature = true) noexcept
-        : axes_(axes), rounds_curvature_(rounds_curvature),
-          joint_tolerance_(scale2(joint_tolerance_mm, -chord_unit_log2)),
-          sharpest_{
-              scale2(smaller(sharpest.curvature_1_mm, from_integer<S>(most_sharpest)), bend_log2 + chord_unit_log2),
-              sharpest.fading, sharpest.half_sine} {}
+    BlendedPath(int axes, const PathRules<S>& rules) noexcept
+        : axes_(axes), rounds_curvature_(rules.rounds_curvature),
+          joint_tolerance_(scale2(rules.joint_tolerance_mm, -chord_unit_log2)),
+          sharpest_{scale2(smaller(rules.sharpest.curvature_1_mm, from_integer<S>(most_sharpest)),
+                           bend_log2 + chord_unit_log2),
+                    rules.sharpest.fading, rules.sharpest.half_sine} {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s1_blended_path/path_move.hpp"
+#include "splinefeed/s1_blended_path/path_rules.hpp"
 
 namespace splinefeed {
 
@@ -19,16 +20,6 @@ struct Joint {
     S half_sine{}; ///< sin(phi/2) of the angle phi between the moves
     S tolerance{}; ///< largest distance of the blend from the moves, in chord units
     S sharpest{};  ///< largest curvature of a blend in units of 2^-20 per chord unit; 0: any
-};
-
-/// Corners that are stops because a plan would take longer for their blend. Their blend bends more than
-/// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves. Where the root is below 1/4,
-/// none is; nor is one where sin(phi/2) is below half_sine. Above half_sine two lines are no chain either.
-template <Scalar S>
-struct SharpestBlend {
-    S curvature_1_mm{}; ///< 0: no corner is a stop for that
-    S fading{};         ///< 0: the same for all angles
-    S half_sine{};
 };
 
 /// What a joint may be, in chord units.

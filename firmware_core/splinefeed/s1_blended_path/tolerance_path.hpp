@@ -24,13 +24,9 @@ struct PathCounts {
 template <Scalar S>
 class TolerancePath final : public CurveSource<S> {
 public:
-    /// @param joint_tolerance_mm  of exact paths, where they turn by less than a degree or only their curvature jumps;
-    /// 0: such joints stay
-    /// @param rounds_curvature  false: the latter stay. Without a jerk limit they cost nothing
-    explicit TolerancePath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {},
-                           bool rounds_curvature = true) noexcept
-        : axes_(axes), chains_(axes, sharpest.half_sine),
-          blended_(axes, joint_tolerance_mm, sharpest, rounds_curvature) {}
+    /// @param rules  those of the machine: path_rules()
+    TolerancePath(int axes, const PathRules<S>& rules) noexcept
+        : axes_(axes), chains_(axes, rules.sharpest.half_sine), blended_(axes, rules) {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;

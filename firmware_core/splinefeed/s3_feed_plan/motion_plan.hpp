@@ -47,10 +47,12 @@ enum class Steered : std::uint8_t {
     unchanged ///< the profile segment stays as it is, for instance where the place is its end, to rounding
 };
 
-/// What the plan does while the input is starved.
+/// What the plan does while the input is starved, or its own work is not done.
 enum class UnderrunPolicy : std::uint8_t {
-    wait, ///< it asks for more input: the plan does not depend on when the input comes
-    drain ///< it continues along the known path and brakes to standstill at its end: for a machine that cannot wait
+    wait,  ///< it asks for more input: the plan does not depend on when the input comes
+    drain, ///< it continues along the known path and brakes to standstill at its end: for a machine that cannot wait
+    urgent ///< drain, and where the budget is spent before a new plan is made, the old one goes on. It ends at
+           ///< standstill. For a machine that moves and has no segment left; what it does then depends on the budget
 };
 
 template <Scalar S>
@@ -68,6 +70,8 @@ public:
         WorkBudget unlimited;
         return prepare(underrun, unlimited);
     }
+    /// Plans behind what is committed, before prepare() needs it. false: there is nothing to do now.
+    virtual bool plan_ahead(WorkBudget& work) noexcept = 0;
     /// @pre the last prepare() answered item; the same for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
     [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
@@ -80,8 +84,9 @@ public:
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
     /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
-    /// the change applies from the next profile segment on. `busy`: call again, with the same place.
-    virtual Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept = 0;
+    /// the change applies from the next profile segment on. `busy`: call again, with the same place; or, in a machine
+    /// that cannot wait (UnderrunPolicy::urgent), with a later one.
+    virtual Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell, for a new program. @pre standing()

@@ -103,7 +103,7 @@ void ProfileSampler<S>::rest() noexcept {
 
 // Chooses the profile segment from the place of the last control point. false: the budget is spent.
 template <Scalar S>
-bool ProfileSampler<S>::follow_steering(WorkBudget& work) noexcept {
+bool ProfileSampler<S>::follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     const S v0 = square_root(plan_->profile_segment().entry_sq);
     const S v1 = square_root(plan_->profile_segment().exit_sq);
     const S share = motion_.share_of(elapsed_);
@@ -113,7 +113,8 @@ bool ProfileSampler<S>::follow_steering(WorkBudget& work) noexcept {
     if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
         speed = braked(x, speed);
     }
-    const Steered steered = plan_->steer({.fraction = x, .speed_sq = speed * speed, .time_share = share}, work);
+    const PlanState<S> place{.fraction = x, .speed_sq = speed * speed, .time_share = share};
+    const Steered steered = plan_->steer(place, underrun, work);
     if (steered != Steered::changed) {
         return steered != Steered::busy;
     }
@@ -208,8 +209,8 @@ bool ProfileSampler<S>::arrive() noexcept {
 template <Scalar S>
 Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (in_segment_ && !advanced_ && (steers_ || plan_->steering().pending())) {
-        steers_ = !follow_steering(work);
-        if (steers_) {
+        steers_ = !follow_steering(underrun, work);
+        if (steers_ && underrun != UnderrunPolicy::urgent) {
             return Pull::busy;
         }
     }
@@ -243,7 +244,8 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept
         elapsed_ -= motion_.duration();
         plan_->advance();
         in_segment_ = false;
-        const Pull pull = work.spent() ? Pull::busy : enter_segment(underrun, work);
+        const bool may_wait = underrun != UnderrunPolicy::urgent;
+        const Pull pull = may_wait && work.spent() ? Pull::busy : enter_segment(underrun, work);
         if (pull != Pull::item) {
             return pull;
         }

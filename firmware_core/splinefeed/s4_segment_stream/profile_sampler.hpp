@@ -22,7 +22,7 @@ public:
 
 private:
     Pull enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept;
-    bool follow_steering(WorkBudget& work) noexcept;
+    bool follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] S braked(S x, S speed) const noexcept;
     bool arrive() noexcept;
     void rest() noexcept;

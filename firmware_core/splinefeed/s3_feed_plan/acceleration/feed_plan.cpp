@@ -23,8 +23,9 @@
 // and chooses a new profile segment from where the machine is (steered_segment.cpp).
 //
 // A pass in parts. It counts with the steering that it began with; a request that comes meanwhile stays pending, and a
-// pass of its own follows. Behind the place where it is, the cells have new K, before it old ones. That would be safe
-// to travel, because a K of the machine only grows; but nobody travels them: the machine waits for the pass.
+// pass of its own follows. Behind the place where it is, the cells have new K, before it old ones. That is safe to
+// travel, because a K of the machine only grows. But only UnderrunPolicy::urgent does so: otherwise the machine waits
+// for the pass. A cell that no pass has visited yet has K = 0, so the old plan ends at standstill before it.
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 
 namespace splinefeed {
@@ -37,7 +38,7 @@ template <Scalar S>
 void FeedPlan<S>::begin_pass(bool open_end) noexcept {
     steered_ = steered_ || steering_.pending();
     steering_.acknowledge();
-    pass_.begin(window_, steering_.ratio(), open_end);
+    pass_.begin(window_, steering_.wish(), open_end);
 }
 
 template <Scalar S>
@@ -113,7 +114,8 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved
         profile_segment_.stops = !rest_to_rest_;
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
-        profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1;
+        profile_segment_.stops =
+            profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1 || !(window_.at(1).entry_sq > S{});
     }
 }
 
@@ -191,6 +193,7 @@ Pull FeedPlan<S>::measure(WorkBudget& work) noexcept {
     if (pull == Pull::item) {
         slot.cap_sq = SpeedCaps<S>(limits_).cap_sq(slot.cell);
         slot.cell.heading = {};
+        slot.entry_sq = slot.exit_sq = S{};
         slot.peak = PeakSpeeds<S>::unknown();
         window_.add_measured();
     }
@@ -251,7 +254,8 @@ void FeedPlan<S>::lead() noexcept {
 // Nothing is committed: takes what there is of the path, and commits a part of it.
 template <Scalar S>
 Pull FeedPlan<S>::plan(UnderrunPolicy underrun, WorkBudget& work) noexcept {
-    if (!pass_.running()) {
+    if (!pass_.running() || window_.size() == 0) {
+        pass_.cancel(); // of a window that was travelled meanwhile
         const Pull pull = fill(work);
         if (window_.size() == 0 || pull == Pull::busy) {
             return pull;
@@ -284,19 +288,34 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
         return window_.size() == 0 ? pull : Pull::held;
     }
     if (committed_ == 0) {
-        if (const Pull pull = plan(underrun, work); pull != Pull::item) {
+        const Pull pull = plan(underrun, work);
+        if (pull != Pull::item && !(pull == Pull::busy && go_on(underrun))) {
             return pull;
         }
     } else if (pass_.running() || steering_.pending()) {
-        if (!replan(work)) {
+        if (!replan(work) && !go_on(underrun)) {
             return Pull::busy;
         }
     } else if (at_ == S{}) {
         wanted_exit_ = smaller(front().exit_sq, reachable_exit());
     }
-    const S known = at_ == S{} ? known_exit() : from_integer<S>(-1);
+    // While a pass runs, the front cell may have its old K and the next one a new one, which do not belong together.
+    const S known = at_ == S{} && !pass_.running() && front().peak.known() ? known_exit() : from_integer<S>(-1);
     forward_step(known);
     return Pull::item;
+}
+
+// The budget is spent: a machine that cannot wait goes on by what it has of the plan, as the caps of the steering let
+// it.
+template <Scalar S>
+bool FeedPlan<S>::go_on(UnderrunPolicy underrun) noexcept {
+    if (underrun != UnderrunPolicy::urgent || leads_ || !(speed_sq_ > S{})) {
+        return false;
+    }
+    committed_ = larger<std::size_t>(committed_, 1);
+    const S exit_sq = at_ == S{} ? front().exit_sq : wanted_exit_;
+    wanted_exit_ = smaller(smaller(exit_sq, reachable_exit()), wanted_sq());
+    return true;
 }
 
 // The steering changed. Committed cells get new speeds, or are no longer committed.
@@ -317,7 +336,7 @@ bool FeedPlan<S>::replan(WorkBudget& work) noexcept {
 }
 
 template <Scalar S>
-Steered FeedPlan<S>::steer(const PlanState<S>& place, WorkBudget& work) noexcept {
+Steered FeedPlan<S>::steer(const PlanState<S>& place, UnderrunPolicy /*underrun*/, WorkBudget& work) noexcept {
     if (!replan(work)) {
         return Steered::busy;
     }
@@ -362,6 +381,7 @@ void FeedPlan<S>::pop() noexcept {
     at_ = S{};
     chosen_ = rest_to_rest_ = peaks_ = false;
     window_.pop();
+    pass_.pop();
     --committed_;
 }
 

@@ -42,6 +42,7 @@ public:
 
     using MotionPlan<S>::prepare;
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    bool plan_ahead(WorkBudget& work) noexcept override { return measure_ahead(work); }
     /// Measures cells that the plan will ask for, as far as the budget and the window's room go. false: nothing was
     /// left to measure, because the window is full or the input has no more.
     bool measure_ahead(WorkBudget& work) noexcept;
@@ -54,7 +55,7 @@ public:
     /// Removes the front cell.
     void pop() noexcept;
 
-    Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept override;
+    Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
     /// Prepares this plan to be refined: another plan takes its cells and uses its speeds as upper bounds, without the
@@ -71,12 +72,13 @@ public:
 private:
     /// v^2 that is wanted in the front cell.
     [[nodiscard]] S wanted_sq() const noexcept {
-        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.ratio());
+        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.wish());
     }
     Pull measure(WorkBudget& work) noexcept;
     Pull fill(WorkBudget& work) noexcept;
     Pull plan(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     bool replan(WorkBudget& work) noexcept;
+    [[nodiscard]] bool go_on(UnderrunPolicy underrun) noexcept;
     void begin_pass(bool open_end) noexcept;
     [[nodiscard]] bool run_pass(WorkBudget& work) noexcept;
     void commit() noexcept;

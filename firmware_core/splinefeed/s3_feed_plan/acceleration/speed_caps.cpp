@@ -48,9 +48,12 @@ S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
 }
 
 template <Scalar S>
-S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept {
+S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept {
     const S programmed = cell.feed_mm_s;
-    const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
+    S feed = programmed > S{} ? limits_.usable_feed(programmed * wish.ratio) : limits_.feed_mm_s * wish.ratio;
+    if (wish.most_mm_s < feed) {
+        feed = limits_.usable_feed(wish.most_mm_s);
+    }
     if (!(feed < limits_.feed_mm_s)) {
         return cap_sq;
     }

@@ -29,7 +29,7 @@ JerkPlan<S, R>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, con
 
 template <Scalar S, Floating R>
 R JerkPlan<S, R>::wanted_sq(const Cell<S>& cell, S most_sq) const noexcept {
-    return to_floating<R>(SpeedCaps<S>(*limits_).wanted_sq(cell, most_sq, steering_.ratio()));
+    return to_floating<R>(SpeedCaps<S>(*limits_).wanted_sq(cell, most_sq, steering_.wish()));
 }
 
 template <Scalar S, Floating R>
@@ -154,7 +154,8 @@ Search JerkPlan<S, R>::change_curve(double from, const SpeedState& state, WorkBu
 // A change of the steering while the machine moves. If no other motion is found, the plan stays until there is one from
 // where a later profile segment starts; the plan of a stop is travelled to its end, a standstill.
 template <Scalar S, Floating R>
-Search JerkPlan<S, R>::answer(double from, const SpeedState& state, WorkBudget& work) noexcept {
+Search JerkPlan<S, R>::answer(double from, const SpeedState& state, UnderrunPolicy underrun,
+                              WorkBudget& work) noexcept {
     if (steering_.pending() || !changing_) {
         changing_ = false;
         if (state.b < JerkWindow<S, R>::slowest_sq) {
@@ -168,9 +169,13 @@ Search JerkPlan<S, R>::answer(double from, const SpeedState& state, WorkBudget& 
     }
     const bool on_line = !line_.done();
     const double travelled_mm = from * to_double(window_.node(0).length_mm);
-    const Search search = !on_line                   ? change_curve(from, state, work)
-                          : change_line(from, state) ? Search::found
-                                                     : Search::none;
+    Search search = !on_line                   ? change_curve(from, state, work)
+                    : change_line(from, state) ? Search::found
+                                               : Search::none;
+    if (search == Search::running && underrun == UnderrunPolicy::urgent) { // the machine leaves this place
+        search = Search::none;
+        changing_ = false;
+    }
     if (search == Search::running) {
         return search;
     }
@@ -200,14 +205,15 @@ Search JerkPlan<S, R>::answer(double from, const SpeedState& state, WorkBudget& 
 }
 
 template <Scalar S, Floating R>
-Steered JerkPlan<S, R>::steer(const PlanState<S>& place, WorkBudget& work) noexcept {
+Steered JerkPlan<S, R>::steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
     const double length_mm = to_double(window_.node(0).length_mm);
     if (line_.done() && (left < least_part || left * length_mm < JerkWindow<S, R>::shortest_mm)) {
         return Steered::unchanged; // it is tried again with the next profile segment
     }
-    switch (answer(from, state_on(profile_segment_, length_mm, from, to_double(place.time_share)), work)) {
+    const SpeedState state = state_on(profile_segment_, length_mm, from, to_double(place.time_share));
+    switch (answer(from, state, underrun, work)) {
     case Search::running: return Steered::busy;
     case Search::none: return Steered::unchanged;
     case Search::found: break;
@@ -218,7 +224,7 @@ Steered JerkPlan<S, R>::steer(const PlanState<S>& place, WorkBudget& work) noexc
 
 // Called before a profile segment is chosen. false: the budget is spent.
 template <Scalar S, Floating R>
-bool JerkPlan<S, R>::follow_steering(WorkBudget& work) noexcept {
+bool JerkPlan<S, R>::follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     plan_.cancel();
     if (standing()) {
         unanswered_ = retries_ = changing_ = false;
@@ -232,11 +238,22 @@ bool JerkPlan<S, R>::follow_steering(WorkBudget& work) noexcept {
         return true;
     }
     if (line_.done()) {
-        return answer(0.0, window_.state(0), work) != Search::running; // the node moves
+        return answer(0.0, window_.state(0), underrun, work) != Search::running; // the node moves
     }
     const MoveState& state = line_.reached();
     return answer(to_double(profile_segment_.stretch.from),
-                  {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}, work) != Search::running;
+                  {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}, underrun,
+                  work) != Search::running;
+}
+
+// The budget is spent: a machine that cannot wait goes on by the plan that it has.
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::go_on(UnderrunPolicy underrun) noexcept {
+    if (underrun != UnderrunPolicy::urgent || plan_.planned() == 0 || !(window_.node(0).b > 0.0)) {
+        return false;
+    }
+    plan_.give_up();
+    return true;
 }
 
 template <Scalar S, Floating R>
@@ -251,7 +268,7 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
         const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if ((steering_.pending() || changing_ || (retries_ && !plan_.running())) && !follow_steering(work)) {
+    if ((steering_.pending() || changing_ || (retries_ && !plan_.running())) && !follow_steering(underrun, work)) {
         return Pull::busy;
     }
     if (plan_.committed() == 0 && steering_.stops()) {
@@ -259,6 +276,11 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
     }
     if (plan_.committed() == 0 && !plan_.running()) {
         const Pull pull = fill(underrun, work);
+        if (pull == Pull::busy && go_on(underrun)) {
+            forward_step();
+            chosen_ = true;
+            return Pull::item;
+        }
         if (window_.size() == 0 || pull == Pull::busy || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
         }
@@ -271,12 +293,35 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
             plan_.begin(pull == Pull::finished);
         }
     }
-    if (plan_.running() && !plan_.run(work)) {
+    if (plan_.running() && plan_.committed() == 0 && !plan_.run(work) && !go_on(underrun)) {
         return Pull::busy;
     }
     forward_step();
     chosen_ = true;
     return Pull::item;
+}
+
+// From the end of what is committed on, once half of it is travelled: so the machine need not wait for the pass.
+template <Scalar S, Floating R>
+bool JerkPlan<S, R>::plan_ahead(WorkBudget& work) noexcept {
+    if (plan_.committed() == 0 || steering_.pending() || steering_.stops() || changing_ || halt_ > 0) {
+        return false;
+    }
+    if (!plan_.running()) {
+        if (4 * plan_.committed() > window_.size()) {
+            return false;
+        }
+        const Pull pull = fill(UnderrunPolicy::wait, work);
+        if (pull != Pull::item && pull != Pull::finished) {
+            return pull == Pull::busy;
+        }
+        if (plan_.complete() || plan_.committed() == window_.size()) {
+            return false;
+        }
+        plan_.begin(pull == Pull::finished);
+    }
+    static_cast<void>(plan_.run(work));
+    return plan_.running();
 }
 
 template <Scalar S, Floating R>

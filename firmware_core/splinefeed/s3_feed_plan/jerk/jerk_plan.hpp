@@ -30,10 +30,11 @@ public:
 
     using MotionPlan<S>::prepare;
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    bool plan_ahead(WorkBudget& work) noexcept override;
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
-    Steered steer(const PlanState<S>& place, WorkBudget& work) noexcept override;
+    Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 
@@ -49,10 +50,11 @@ private:
     Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] R wanted_sq(const Cell<S>& cell, S most_sq) const noexcept;
     void want() noexcept;
-    Search answer(double from, const SpeedState& state, WorkBudget& work) noexcept;
+    Search answer(double from, const SpeedState& state, UnderrunPolicy underrun, WorkBudget& work) noexcept;
     bool change_line(double from, const SpeedState& state) noexcept;
     Search change_curve(double from, const SpeedState& state, WorkBudget& work) noexcept;
-    bool follow_steering(WorkBudget& work) noexcept;
+    bool follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept;
+    [[nodiscard]] bool go_on(UnderrunPolicy underrun) noexcept;
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 

@@ -69,16 +69,17 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
     return Search::found;
 }
 
-// How much of a leg that ends with the window is final: to about the middle, where it brakes least.
+// How much of a leg of so many cells from `first` on, which ends with the window, is final: to about the middle, where
+// it brakes least.
 template <Scalar S, Floating R>
-std::size_t WindowPlan<S, R>::final_cells(std::size_t cells) const noexcept {
+std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
     const auto part = [cells](unsigned per_cent) {
         return larger<std::size_t>(1, cells * per_cent / 100U);
     };
     std::size_t best = part(50);
     auto least = largest<double>();
     for (std::size_t i = part(60); i >= part(35); --i) {
-        const SpeedState state = window_->state(i);
+        const SpeedState state = window_->state(first + i);
         const double braking = -state.slope / square_root(state.b);
         if (braking < least) {
             least = braking;
@@ -94,15 +95,15 @@ std::size_t WindowPlan<S, R>::final_cells(std::size_t cells) const noexcept {
 // Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
 template <Scalar S, Floating R>
 bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
-    const std::size_t half = (window_->size() + 1) / 2;
+    const std::size_t half = first_ + (window_->size() - first_ + 1) / 2;
     complete_ = true;
-    while (at_ < window_->size() && (at_ == 0 || at_ < half)) {
+    while (at_ < window_->size() && (at_ == first_ || at_ < half)) {
         std::size_t end = at_ + 1;
         while (end < window_->size() && !window_->cell(end - 1).stop_at_end) {
             ++end;
         }
         const bool stops = window_->cell(end - 1).stop_at_end || (ended_ && end == window_->size());
-        if (!stops && at_ > 0) {
+        if (!stops && at_ > first_) {
             break;
         }
         const bool rests = !(window_->node(at_).b > 0.0);
@@ -124,13 +125,13 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
         }
         if (search == Search::found) {
             planned_ = end;
-            at_ = stops ? end : final_cells(end);
+            at_ = stops ? end : at_ + final_cells(at_, end - at_);
             hops_ = 1;
         } else if (rests) {
             at_ = rest_to_rest(at_, end);
         } else { // the old plan goes on, and from a little farther there may be another
-            SPLINEFEED_ASSERT(at_ == 0 && planned_ > 0);
-            at_ = larger<std::size_t>(1, planned_ / 8);
+            SPLINEFEED_ASSERT(at_ == first_ && planned_ > first_);
+            at_ += larger<std::size_t>(1, (planned_ - first_) / 8);
             complete_ = false;
             break;
         }

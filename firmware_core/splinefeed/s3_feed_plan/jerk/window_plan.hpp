@@ -32,10 +32,16 @@ public:
         committed_ = committed;
         running_ = searching_ = false;
     }
-    /// The front cell is travelled.
+    /// The front cell is travelled. @pre committed() > 0
     void pop() noexcept {
         --committed_;
         --planned_;
+        if (running_) { // it began behind it
+            --first_;
+            --at_;
+            --leg_first_;
+            --leg_end_;
+        }
     }
     /// Forgets everything.
     void clear() noexcept {
@@ -44,15 +50,21 @@ public:
         complete_ = false;
     }
 
-    /// Begins to plan anew. @param ended  no cell comes behind the window
+    /// Begins to plan anew what is not committed. @param ended  no cell comes behind the window
     void begin(bool ended) noexcept {
         running_ = true;
         ended_ = ended;
-        at_ = 0;
+        first_ = at_ = committed_;
     }
     [[nodiscard]] bool running() const noexcept { return running_; }
     /// Ends what runs, without a new plan.
     void cancel() noexcept { running_ = searching_ = false; }
+    /// Ends what runs, and commits what it has planned, or a cell of the plan before. @pre planned() > 0
+    void give_up() noexcept {
+        committed_ = running_ && at_ > first_ ? at_ : 1;
+        cancel();
+        complete_ = false;
+    }
     /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
     /// spent; call again. Cost: a step of a search is as many steps of the budget as the leg has cells.
     bool run(WorkBudget& work) noexcept;
@@ -63,14 +75,15 @@ public:
 private:
     void begin_leg(std::size_t first, std::size_t end) noexcept;
     Search search_leg(WorkBudget& work) noexcept;
-    [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
+    [[nodiscard]] std::size_t final_cells(std::size_t first, std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
 
     JerkWindow<S, R>* window_;
     LegPlan<R> leg_;            // that is planned now
     std::size_t leg_first_ = 0; // its cells
     std::size_t leg_end_ = 0;
-    std::size_t at_ = 0; // so many cells are planned anew
+    std::size_t first_ = 0; // cell that is planned anew
+    std::size_t at_ = 0;    // up to here
     std::size_t committed_ = 0;
     std::size_t planned_ = 0;
     std::size_t hops_ = 1; // cells that are passed from standstill to standstill if no plan is found; doubled each time

@@ -2,15 +2,13 @@
 //
 // A tolerance never costs time: within it a program is not slower than with a stop at the end of every move. What is
 // emitted is compared.
-#include "host_sim/config/path_tolerances.hpp"
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
 
 #include "support/emitted.hpp"
 #include "support/pipeline.hpp"
 #include "support/random_moves.hpp"
 #include "support/rounds.hpp"
-
-namespace splinefeed::host {
 
 using namespace splinefeed_test;
 
@@ -25,11 +23,7 @@ struct Emitted {
 
 template <Scalar S>
 Emitted run_of(const MoveProgram& program, const MachineSettings& machine, bool exact_stops) {
-    const SharpestCorner corner = sharpest_corner(machine);
-    TolerancePath<S> path(
-        program.axes, from_double<S>(program.joint_tolerance_mm),
-        {from_double<S>(corner.curvature_1_mm), from_double<S>(corner.fading), from_double<S>(corner.half_sine)},
-        false);
+    TolerancePath<S> path(program.axes, rules_cast<S>(path_rules(machine, program.joint_tolerance_mm)));
     REQUIRE(path.start(position_of<S>(program.start)).ok());
     const auto limits = MotionLimits<S>::make(machine).value();
     AnyTrajectory<S> trajectory(path, limits, 512);
@@ -72,15 +66,15 @@ TEST_CASE("a tolerance makes no program slower than exact stops", "[never_slower
 
 TEST_CASE("corners are stops where a limit across the path makes their blend slower", "[never_slower]") {
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    CHECK(sharpest_corner(machine).curvature_1_mm == 0.0);
+    CHECK(sharpest_blend(machine).curvature_1_mm == 0.0);
     machine.centripetal_mm_s2 = 2000.0;
-    CHECK(sharpest_corner(machine).curvature_1_mm == 0.0);
+    CHECK(sharpest_blend(machine).curvature_1_mm == 0.0);
     machine.centripetal_mm_s2 = 100.0;
-    CHECK(sharpest_corner(machine).curvature_1_mm == Approx(100.0 / 2500.0));
-    CHECK(sharpest_corner(machine).half_sine == Approx(0.15));
+    CHECK(sharpest_blend(machine).curvature_1_mm == Approx(100.0 / 2500.0));
+    CHECK(sharpest_blend(machine).half_sine == Approx(0.15));
     machine.centripetal_mm_s2 = 0.0;
     machine.chord_error_mm = 1e-5; // 8 e / T^2 = 80 mm/s^2
-    CHECK(sharpest_corner(machine).half_sine == Approx(0.12));
+    CHECK(sharpest_blend(machine).half_sine == Approx(0.12));
     machine.chord_error_mm = 0.0;
     machine.centripetal_mm_s2 = 100.0;
     MoveProgram corners;
@@ -93,5 +87,3 @@ TEST_CASE("corners are stops where a limit across the path makes their blend slo
     require_limits(within, machine);
     CHECK(within.segments.size() == stops.segments.size());
 }
-
-} // namespace splinefeed::host

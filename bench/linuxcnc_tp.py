@@ -1,0 +1,328 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Programs through LinuxCNC, headless and simulated, with its own trajectory planner and with splinefeed_tp.so.
+
+  bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
+      [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
+      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--hal FILE] [--check]
+
+Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
+double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
+its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
+overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
+a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --check fails where a limit is
+exceeded by 1e-4, an end is missed, or a period had no motion.
+"""
+import argparse
+import importlib.util
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:] = [p for p in sys.path if pathlib.Path(p or ".").resolve() != HERE]  # its gcode.py is not LinuxCNC's gcode
+MODULES = pathlib.Path("/usr/lib/linuxcnc/modules")
+VELOCITY, ACCELERATION = 100.0, 1000.0
+FIGURES = ["splinefeed-tp." + name for name in ("max-us", "mean-us", "urgent", "late", "busy")] + [
+    "splinefeed-tp.below-%04d-us" % (1 << bit) for bit in range(12)] + ["splinefeed-tp.above-2048-us", "motion-controller.tmax"]
+OTHERS = ["current-vel", "program-line", "in-position", "digital-out-00", "controller-clocks"]  # columns behind the axes
+
+INSIDE = """set -e
+cd /
+[ -z "$2" ] || mount --bind "$2" /usr/lib/linuxcnc/modules
+mount --rbind "$1" /tmp
+/usr/bin/python3 -c 'import fcntl, socket, struct
+fcntl.ioctl(socket.socket(), 0x8914, struct.pack("16sh14x", b"lo", 0x1 | 0x40))'
+cd /tmp
+export HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin
+if [ "$3" = root ]; then # rtapi_app refuses to run for root
+    chown -R 65534:65534 /tmp/.
+    exec setpriv --reuid=65534 --regid=65534 --clear-groups --no-new-privs linuxcnc -r /tmp/sim.ini < /dev/null
+fi
+exec unshare --user --map-user=65534 --map-group=65534 setpriv --no-new-privs linuxcnc -r /tmp/sim.ini < /dev/null
+"""
+
+INI = """[EMC]
+VERSION = 1.1
+[DISPLAY]
+DISPLAY = ./driver.py
+MAX_FEED_OVERRIDE = 2.0
+[RS274NGC]
+PARAMETER_FILE = sim.var
+[EMCMOT]
+EMCMOT = motmod
+COMM_TIMEOUT = 4.0
+SERVO_PERIOD = {period_ns}
+[EMCIO]
+EMCIO = io
+CYCLE_TIME = 0.1
+TOOL_TABLE = sim.tbl
+[TASK]
+TASK = milltask
+CYCLE_TIME = 0.001
+[HAL]
+HALFILE = sim.hal
+[KINS]
+KINEMATICS = trivkins coordinates={axes}
+JOINTS = {joints}
+[TRAJ]
+COORDINATES = {axes}
+LINEAR_UNITS = mm
+ANGULAR_UNITS = degree
+DEFAULT_LINEAR_VELOCITY = 100
+MAX_LINEAR_VELOCITY = 1000
+{tpmod}
+"""
+AXIS = """[{section}]
+TYPE = {kind}
+MIN_LIMIT = -10000
+MAX_LIMIT = 10000
+MAX_VELOCITY = {velocity}
+MAX_ACCELERATION = {acceleration}
+HOME = 0
+HOME_OFFSET = 0
+HOME_SEARCH_VEL = 0
+HOME_LATCH_VEL = 0
+HOME_SEQUENCE = 0
+FERROR = 1000
+MIN_FERROR = 1000
+"""
+HAL = """loadrt [KINS]KINEMATICS
+loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
+loadrt sampler depth=60000 cfg={cfg}
+addf motion-command-handler servo-thread
+addf motion-controller servo-thread
+addf sampler.0 servo-thread
+{nets}net speed motion.current-vel => sampler.0.pin.{0}
+net line motion.program-line => sampler.0.pin.{1}
+net inpos motion.in-position => sampler.0.pin.{2}
+net out motion.digital-out-00 => sampler.0.pin.{3}
+net clocks motion-controller.time => sampler.0.pin.{4}
+net adaptive => motion.adaptive-feed
+sets adaptive 1
+net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
+net prep iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
+net chng iocontrol.0.tool-change => iocontrol.0.tool-changed
+net atspeed spindle.0.on => spindle.0.at-speed
+"""
+
+
+def write_machine(folder, axes, period_us, tpmod, more_hal):
+    text = INI.format(period_ns=period_us * 1000, axes=axes, joints=len(axes), tpmod=tpmod and "TPMOD = " + tpmod)
+    nets = ""
+    for i, axis in enumerate(axes):
+        for section in ("AXIS_" + axis, f"JOINT_{i}"):
+            kind = "ANGULAR" if axis in "ABC" else "LINEAR"
+            text += AXIS.format(section=section, kind=kind, velocity=VELOCITY, acceleration=ACCELERATION)
+        nets += f"net j{i} joint.{i}.motor-pos-cmd => joint.{i}.motor-pos-fb\n"
+        nets += f"net p{i} axis.{axis.lower()}.pos-cmd => sampler.0.pin.{i}\n"
+    n = len(axes)
+    (folder / "sim.ini").write_text(text)
+    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 5), cfg="f" * (n + 1) + "sbbs", nets=nets) + more_hal)
+    (folder / "sim.var").write_text("")
+    (folder / "sim.tbl").write_text("T1 P1 D1\n")
+    shutil.copy(HERE / "linuxcnc_driver.py", folder / "driver.py")
+    os.chmod(folder / "driver.py", 0o755)
+
+
+def run(program, axes, period_us, module, parameters, actions, timeout_s, more_hal):
+    """One run: what the driver tells, with the samples as an array of a row a period."""
+    import numpy
+
+    with tempfile.TemporaryDirectory(prefix="linuxcnc-") as name:
+        folder = pathlib.Path(name) / "work"
+        folder.mkdir()
+        modules = ""
+        if module:
+            modules = pathlib.Path(name) / "modules"
+            shutil.copytree(MODULES, modules)
+            shutil.copy(module, modules / "splinefeed_tp.so")
+            subprocess.run(["chmod", "-R", "a+rX", name], check=True)
+        write_machine(folder, axes, period_us, module and f"splinefeed_tp axes={axes} {parameters}", more_hal)
+        (folder / "program.ngc").write_text(program)
+        job = {"actions": actions, "timeout_s": timeout_s, "figures": FIGURES, "columns": len(axes) + len(OTHERS)}
+        (folder / "job.json").write_text(json.dumps(job))
+        spaces = ["unshare", "--mount", "--ipc", "--net", "--pid", "--fork", "--mount-proc", "--kill-child"]
+        root = os.getuid() == 0
+        spaces += [] if root else ["--user", "--map-root-user"]
+        environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
+        ran = subprocess.run([*spaces, "bash", "-c", INSIDE, "inside", folder, modules, "root" if root else "user"],
+                             capture_output=True, text=True, env=environment, timeout=timeout_s + 120, check=False)
+        if not (folder / "result.json").exists():
+            return {"problem": "LinuxCNC did not run: " + " | ".join((ran.stdout + ran.stderr).strip().split("\n")[-12:]), "said": []}
+        result = json.loads((folder / "result.json").read_text())
+        result["samples"] = numpy.fromfile(folder / "samples.bin").reshape(-1, job["columns"])
+        return result
+
+
+def limits_used(samples, axes, period_us, jerk):
+    """Cycle time, and the largest use of velocity, acceleration and jerk."""
+    import numpy
+
+    q = samples[:, : len(axes)]
+    moved = numpy.flatnonzero(numpy.abs(numpy.diff(q, axis=0)).max(axis=1) > 1e-9)
+    if len(moved) == 0:
+        return 0.0, 0.0, 0.0, 0.0
+    t = period_us * 1e-6
+    peak = [numpy.abs(numpy.diff(q, n, axis=0)).max() / t**n for n in (1, 2, 3)]
+    return (moved[-1] - moved[0] + 1) * t, peak[0] / VELOCITY, peak[1] / ACCELERATION, peak[2] / jerk if jerk else 0.0
+
+
+def controller_us(samples, axes):
+    """What LinuxCNC's motion-controller took as a whole, in periods with motion: the mean, and 99.9 per cent take less."""
+    import numpy
+
+    moving = numpy.flatnonzero(numpy.abs(numpy.diff(samples[:, :axes], axis=0)).max(axis=1) > 0) + 1
+    mhz = re.search(r"cpu MHz\s*:\s*([\d.]+)", pathlib.Path("/proc/cpuinfo").read_text())
+    if len(moving) == 0 or not mhz:
+        return "-"
+    took = samples[moving, -1] / float(mhz[1])
+    return f"{took.mean():.1f}, {numpy.quantile(took, 0.999):.0f}"
+
+
+def random_actions(seed, seconds):
+    chance = random.Random(seed)
+    actions, t = [], 0.0
+    for _ in range(chance.randint(2, 10)):
+        t += chance.uniform(0.02, 0.3 * seconds)
+        what = chance.choice(["hold", "step", "override", "rapid", "limit", "adaptive"])
+        value = {"override": chance.choice([0.0, 0.3, 1.2, 2.0, chance.uniform(0.1, 2.0)]), "rapid": chance.uniform(0.1, 1.0),
+                 "limit": chance.uniform(5.0, 150.0), "adaptive": chance.uniform(0.0, 1.0)}.get(what, 0)
+        actions.append([t, what, value])
+        if what in ("hold", "step"):
+            t += chance.uniform(0.01, 0.4)
+            actions.append([t, "resume", 0])
+            if what == "step": # it only steps a program that pauses
+                actions[-2][1] = "hold"
+                actions.insert(-1, [t - 0.005, "step", 0])
+        elif value < 0.05:
+            t += chance.uniform(0.1, 0.4)
+            actions.append([t, what, 1.0])
+    actions += [[t + 0.05, "resume", 0], [t + 0.06, "override", 1.0], [t + 0.07, "adaptive", 1.0], [t + 0.08, "limit", 1000.0]]
+    if chance.random() < 0.33:
+        t += chance.uniform(0.05, 0.2 * seconds)
+        actions += [[t, "abort", 0], [t + 0.01, "mdi", "G1 X1 Y2 Z3 F3000"], [t + 0.02, "mdi", "G0 X0 Y0 Z0"]]
+    return actions
+
+
+def load(path):
+    spec = importlib.util.spec_from_file_location(pathlib.Path(path).stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def path_error(options, text, samples, axes, period_us, folder):
+    import numpy
+
+    program = folder / "program.ngc"
+    program.write_text(text)
+    elements = load(options.canon).convert(str(program))
+    n = len(axes)
+    limits = numpy.full(n, VELOCITY), numpy.full(n, ACCELERATION), numpy.full(n, options.jerk or numpy.inf)
+    times = numpy.arange(len(samples)) * period_us * 1e-6
+    return load(options.judge).judge(elements, times, samples[:, :n], axes.lower(), *limits)
+
+
+def tool_time(options, text, axes, folder):
+    programmed = re.search(r"G64\s*P([\d.]+)", text, re.I)
+    tolerance = float(programmed[1]) if programmed else 0.01
+    machine = f"sample_period_us = {options.period}\n\n[path]\nmax_feed_mm_s = 173.2\nrapid_tolerance_mm = {tolerance}\n"
+    for axis in axes:
+        machine += f'\n[[axis]]\nname = "{axis.lower()}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n'
+        machine += f"max_jerk_mm_s3 = {options.jerk}\n" if options.jerk else ""
+        machine += 'kind = "rotary"\n' if axis in "ABC" else ""
+    (folder / "m.toml").write_text(machine)
+    (folder / "tool.ngc").write_text(re.sub(r"(G64\s*P[\d.]+)\s*Q[\d.]+", r"\1", text, flags=re.I)) # it joins short lines itself, within P
+    ran = subprocess.run([options.tool, "run", folder / "tool.ngc", "-m", folder / "m.toml", "--scalar", "double", "--summary", "json"],
+                         capture_output=True, text=True, check=False)
+    return json.loads(ran.stdout)["cycle_time_s"] if ran.returncode == 0 else float("nan")
+
+
+def begun_with(words, text):
+    first = re.match(r"\s*%.*\n", text)
+    at = first.end() if first else 0
+    return text[:at] + words + "\n" + text[at:]
+
+
+def in_mode(text, mode):
+    if not mode:
+        return text
+    inch = "G20" in text.upper() # all its tolerances, then
+    words = re.sub(r"([PQ])([\d.]+)", lambda m: f"{m[1]}{float(m[2]) / 25.4:.7f}" if inch else m[0], mode)
+    replaced, n = re.subn(r"\bG(64|61(\.1)?)\b(\s*[PQ][\d.]+)*", words, text, flags=re.I)
+    return replaced if n else begun_with(words, text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", nargs="+", type=pathlib.Path)
+    parser.add_argument("--module", type=pathlib.Path, default=HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so")
+    parser.add_argument("--planner", default="stock,module")
+    parser.add_argument("--axes", default="")
+    for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
+                                ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
+                                ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
+        parser.add_argument("--" + name, type=kind, default=default)
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    if shutil.which("linuxcnc") is None:
+        print("SKIPPED: there is no LinuxCNC (Debian: apt-get install linuxcnc-uspace)")
+        return 0
+    print("| program | planner | s | tool, s | path, um | velocity | acceleration | jerk | mean us | max us | urgent | late | controller us: mean, 99.9 % | problem |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
+    failed = 0
+    ends = {} # where a program ends
+    for program, seed in ((p, s) for p in options.programs for s in range(options.runs)):
+        text = in_mode(program.read_text(), options.mode)
+        axes = options.axes or ("XYZA" if re.search(r"\bA[-+.\d]", re.sub(r"\(.*?\)|;.*", "", text)) else "XYZ")
+        with tempfile.TemporaryDirectory() as name:
+            tool_s = tool_time(options, text, axes, pathlib.Path(name)) if options.tool else 0.0
+        for planner in options.planner.split(","):
+            ours = planner == "module"
+            parameters = options.parameters + (f" jerk={options.jerk}" if options.jerk else "") + f" starve={options.starve}"
+            steers = options.steer is not None
+            actions = random_actions(options.steer + seed, tool_s or 8.0) if steers else []
+            sent = begun_with("M52 P1", text) if steers else text
+            result = run(sent, axes, options.period, options.module.resolve() if ours else None, parameters, actions, options.timeout,
+                         options.hal.read_text() if options.hal else "")
+            row = [program.name, planner]
+            problem = "; ".join(dict.fromkeys([result["problem"]] * bool(result["problem"]) + result["said"]))
+            if "samples" in result:
+                used = limits_used(result["samples"], axes, options.period, options.jerk)
+                figures = result["figures"]
+                path_um = 0.0
+                if options.judge and not steers:
+                    with tempfile.TemporaryDirectory() as name:
+                        path_um = 1e3 * path_error(options, text, result["samples"], axes, options.period, pathlib.Path(name))["path_error_mm"]
+                tell = [figures.get("splinefeed-tp." + n, 0) for n in ("mean-us", "max-us", "urgent", "late")]
+                row += [f"{used[0]:.3f}", f"{tool_s:.3f}", f"{path_um:.1f}", *(f"{u:.5f}" for u in used[1:]), f"{tell[0]:.1f}", f"{tell[1]:.0f}",
+                        *map(str, tell[2:]), controller_us(result["samples"], len(axes))]
+                if not any(what == "abort" for _, what, _ in actions):
+                    end = ends.setdefault(program, result["position"])
+                else:
+                    end = [0.0] * len(result["position"])
+                if max(abs(a - b) for a, b in zip(end, result["position"])) > 1e-6:
+                    problem += f" it ends at {result['position'][:len(axes)]} and not at {end[:len(axes)]}"
+                if ours and max(used[1:]) > 1.0001:
+                    problem += " a limit is exceeded"
+                if ours and tell[3]:
+                    problem += " a period without motion"
+                if options.keep:
+                    options.keep.mkdir(exist_ok=True)
+                    result["samples"].tofile(options.keep / f"{program.stem}.{planner}.{seed}.bin")
+                    (options.keep / f"{program.stem}.{planner}.{seed}.json").write_text(
+                        json.dumps({k: v for k, v in result.items() if k != "samples"} | {"actions": actions}))
+            print("| " + " | ".join(row + ["-"] * (13 - len(row)) + [problem]) + " |", flush=True)
+            failed += 1 if problem and ours else 0
+    return 1 if options.check and failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

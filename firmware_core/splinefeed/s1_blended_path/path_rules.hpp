@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// PathRules: what a path within a tolerance has to know of the machine that travels it.
+#pragma once
+
+#include "splinefeed/number/scalar.hpp"
+
+namespace splinefeed {
+
+/// Corners that are stops because a plan would take longer for their blend. Their blend bends more than
+/// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves. Where the root is below 1/4,
+/// none is; nor is one where sin(phi/2) is below half_sine. Above half_sine two lines are no chain either.
+template <Scalar S>
+struct SharpestBlend {
+    S curvature_1_mm{}; ///< 0: no corner is a stop for that
+    S fading{};         ///< 0: the same for all angles
+    S half_sine{};
+};
+
+/// path_rules() makes them of a machine's numbers.
+template <Scalar S>
+struct PathRules {
+    S joint_tolerance_mm{}; ///< of exact paths, where they turn by less than a degree or only their curvature jumps; 0:
+                            ///< such joints stay
+    SharpestBlend<S> sharpest{};  ///< corners that are stops
+    bool rounds_curvature = true; ///< false: joints where only the curvature jumps stay
+    int chain_quarters = 4; ///< quarters of a move's tolerance that chains of short lines get, where the program does
+                            ///< not say it
+};
+
+/// The same in another scalar.
+template <Scalar S>
+[[nodiscard]] constexpr PathRules<S> rules_cast(const PathRules<double>& rules) noexcept {
+    const SharpestBlend<double>& sharpest = rules.sharpest;
+    return {
+        from_double<S>(rules.joint_tolerance_mm),
+        {from_double<S>(sharpest.curvature_1_mm), from_double<S>(sharpest.fading), from_double<S>(sharpest.half_sine)},
+        rules.rounds_curvature,
+        rules.chain_quarters};
+}
+
+} // namespace splinefeed

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT
+ * module.c: the module's parameters, and what its periods took, as parameters in HAL. */
+#include "tp_module.h"
+
+#include "rtapi_app.h"
+
+#include <string.h>
+
+MODULE_LICENSE("GPL"); /* as a whole: it is compiled with LinuxCNC's headers; these sources are MIT */
+MODULE_DESCRIPTION("splinefeed as LinuxCNC's trajectory planner");
+
+static const char letters[] = "XYZABCUVW";
+
+static char *axes = "XYZ";
+RTAPI_MP_STRING(axes, "the axes that move, as in [TRAJ]COORDINATES: letters of XYZABCUVW");
+static int jerk[tpc_axes];
+RTAPI_MP_ARRAY_INT(jerk, tpc_axes, "jerk limits in the order of axes, units/s^3; one for all; 0: none");
+static int inch = 0;
+RTAPI_MP_INT(inch, "1: the machine's unit is the inch");
+static int tolerance_um = 50;
+RTAPI_MP_INT(tolerance_um, "tolerance of G64 without P, micrometres");
+static int share = 10;
+RTAPI_MP_INT(share, "part of a servo period that planning may take, per cent, 1 to 90");
+static int ahead = 0;
+RTAPI_MP_INT(ahead, "segments that are ready, 3 to 64; 0: 8, with a jerk limit 40; a hold takes effect behind them");
+static int idle_ms = 10;
+RTAPI_MP_INT(idle_ms, "no new move for so long: the path ends with a stop");
+static int starve = 0;
+RTAPI_MP_INT(starve, "for tests: planning gets no time in so many of a hundred periods");
+
+enum { bins = 13 }; /* below 1, 2, 4 ... 2048 us, and the others */
+struct figures {
+    hal_float_t max_us, mean_us;
+    hal_u32_t urgent, late, busy, below[bins];
+};
+static struct figures *figures;
+static long long periods, sum_ns;
+static int component;
+static unsigned chance;
+
+static int place_of(char letter) {
+    const char *found = strchr(letters, letter >= 'a' ? letter - 'a' + 'A' : letter);
+    return letter != 0 && found != 0 ? (int)(found - letters) : -1;
+}
+
+int module_has_axis(int k) {
+    for (const char *a = axes; *a != 0; ++a) {
+        if (place_of(*a) == k) return 1;
+    }
+    return 0;
+}
+
+static int first_axis(void) { return place_of(axes[0]) < 3 ? place_of(axes[0]) : 0; }
+
+double module_tolerance(void) { return tolerance_um * 1e-3 / (inch ? 25.4 : 1.0); }
+
+static int has_jerk(void) {
+    for (int i = 0; i < tpc_axes; ++i) {
+        if (jerk[i] > 0) return 1;
+    }
+    return 0;
+}
+
+void module_axes(struct tpc_machine *machine) {
+    machine->axes = 0;
+    for (int k = 0; k < tpc_axes; ++k) {
+        if (k >= 3 && !module_has_axis(k)) continue;
+        double limit = 0.0;
+        for (int i = 0; axes[i] != 0; ++i) {
+            if (place_of(axes[i]) == k) limit = jerk[i] > 0 || jerk[1] > 0 ? jerk[i] : jerk[0];
+        }
+        machine->jerk[machine->axes] = limit;
+        machine->axis[machine->axes++] = k;
+    }
+    machine->mm_per_unit = inch ? 25.4 : 1.0;
+}
+
+/* One of X Y Z that the machine does not have never moves: it gets the limits of the first. */
+void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
+                   double jerk_elsewhere) {
+    const int first = first_axis();
+    module_axes(machine);
+    machine->period_s = period_s;
+    for (int k = 0; k < machine->axes; ++k) {
+        const int axis = k >= 3 || module_has_axis(k) ? machine->axis[k] : first;
+        machine->velocity[k] = velocity(axis);
+        machine->acceleration[k] = acceleration(axis);
+        const double jerk_of_axis = machine->jerk[axis < 3 ? axis : k];
+        machine->jerk[k] = jerk_of_axis > 0.0 ? jerk_of_axis : jerk_elsewhere;
+    }
+}
+
+/* A starved period looks at a clock that jumps. */
+static int looks;
+static long long clock_ns(void) {
+    const int starved = ++looks > 1 && chance % 100U < (unsigned)starve;
+    return rtapi_get_time() + (starved ? 1000000000LL : 0LL);
+}
+
+void module_create(struct tpc_machine *machine) {
+    const struct tpc_settings settings = {clock_ns, share * 0.01, ahead > 0 ? ahead : has_jerk() ? 40 : 8, idle_ms * 1e-3};
+    memset(machine, 0, sizeof *machine);
+    module_axes(machine);
+    tpc_create(&settings, machine);
+}
+
+void module_count(long long ns) {
+    looks = 0;
+    chance = (chance * 1103515245U + 12345U) & 0x7fffffffU;
+    struct tpc_figures core;
+    tpc_tell(&core);
+    const double us = (double)ns * 1e-3;
+    sum_ns += ns;
+    ++periods;
+    if (us > figures->max_us) figures->max_us = us;
+    figures->mean_us = (double)sum_ns * 1e-3 / (double)periods;
+    figures->urgent = core.urgent;
+    figures->late = core.late;
+    figures->busy = core.busy;
+    int bin = 0;
+    while (bin < bins - 1 && us >= (double)(1 << bin)) ++bin;
+    ++figures->below[bin];
+}
+
+static int export_figures(void) {
+    figures = hal_malloc(sizeof *figures);
+    if (figures == 0) return -1;
+    memset(figures, 0, sizeof *figures);
+    int failed = hal_param_float_newf(HAL_RO, &figures->max_us, component, "splinefeed-tp.max-us") != 0 ||
+                 hal_param_float_newf(HAL_RO, &figures->mean_us, component, "splinefeed-tp.mean-us") != 0 ||
+                 hal_param_u32_newf(HAL_RO, &figures->urgent, component, "splinefeed-tp.urgent") != 0 ||
+                 hal_param_u32_newf(HAL_RO, &figures->late, component, "splinefeed-tp.late") != 0 ||
+                 hal_param_u32_newf(HAL_RO, &figures->busy, component, "splinefeed-tp.busy") != 0;
+    for (int bin = 0; bin < bins - 1 && !failed; ++bin) {
+        failed = hal_param_u32_newf(HAL_RO, &figures->below[bin], component, "splinefeed-tp.below-%04d-us", 1 << bin) != 0;
+    }
+    return failed ||
+           hal_param_u32_newf(HAL_RO, &figures->below[bins - 1], component, "splinefeed-tp.above-2048-us") != 0;
+}
+
+/* What is wrong with the parameters; 0: nothing. */
+static const char *wrong(void) {
+    if (axes == 0 || axes[0] == 0 || strlen(axes) > tpc_axes) return "axes must name one to nine axes";
+    for (const char *a = axes; *a != 0; ++a) {
+        if (place_of(*a) < 0 || strchr(a + 1, *a) != 0) return "axes must be letters of XYZABCUVW, each once";
+    }
+    if (!module_has_axis(0) && !module_has_axis(1) && !module_has_axis(2)) return "axes must name X, Y or Z";
+    for (int i = 0; i < tpc_axes; ++i) {
+        if (jerk[i] < 0) return "jerk must not be negative";
+    }
+    if (tolerance_um < 1 || tolerance_um > 100000) return "tolerance_um must be 1 to 100000";
+    if (share < 1 || share > 90) return "share must be 1 to 90";
+    if (ahead < 0 || ahead > 64) return "ahead must be 0 to 64";
+    if (idle_ms < 1 || idle_ms > 10000) return "idle_ms must be 1 to 10000";
+    return starve < 0 || starve > 100 ? "starve must be 0 to 100" : 0;
+}
+
+int rtapi_app_main(void) {
+    const char *reason = wrong();
+    if (reason != 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: %s\n", reason);
+        return -1;
+    }
+    component = hal_init("splinefeed_tp");
+    if (component < 0) return component;
+    if (export_figures() != 0) {
+        hal_exit(component);
+        return -1;
+    }
+    return hal_ready(component);
+}
+
+void rtapi_app_exit(void) { hal_exit(component); }

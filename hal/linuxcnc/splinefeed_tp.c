@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: MIT
+ * splinefeed_tp.c: LinuxCNC's trajectory planner ([TRAJ] TPMOD = splinefeed_tp) on splinefeed's core: the functions that
+ * motmod calls. The module as a whole is GPL, because it is compiled with LinuxCNC's headers.
+ *
+ * All of them but tpMotFunctions, tpMotData and tpCreate are called in the servo thread: moves in one HAL function,
+ * tpRunCycle in another one behind it. */
+#include "tp_module.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ what motmod hands over */
+static emcmot_status_t *status;
+static emcmot_config_t *config;
+static void (*dio_write)(int, char);
+static void (*aio_write)(int, double);
+static void (*set_rotary_unlock)(int, int);
+static int (*is_rotary_unlocked)(int);
+static double (*velocity_limit)(int);
+static double (*acceleration_limit)(int);
+
+void tpMotFunctions(void (*dio)(int, char), void (*aio)(int, double), void (*unlock)(int, int), int (*unlocked)(int),
+                    double (*vel)(int), double (*acc)(int)) {
+    dio_write = dio;
+    aio_write = aio;
+    set_rotary_unlock = unlock;
+    is_rotary_unlocked = unlocked;
+    velocity_limit = vel;
+    acceleration_limit = acc;
+}
+
+void tpMotData(emcmot_status_t *s, emcmot_config_t *c) {
+    status = s;
+    config = c;
+}
+
+/* ------------------------------------------------------------------ state */
+/* What the screens and the outputs need of a move; its place in the queue is that of the core. */
+struct told {
+    EmcPose end;
+    double vel;
+    int id, canon, indexer, synced;
+    unsigned char enables;
+    char atspeed;
+    struct state_tag_t tag;
+};
+static struct told told[tpc_capacity];
+static syncdio_t io[tpc_capacity];
+static struct tpc_output out; /* of the last period */
+static unsigned begun;        /* moves before it have written their outputs */
+static struct tpc_machine machine;
+static double per_rev_nominal; /* of moves that follow the spindle's speed: the speed that their feed is for */
+
+static void to_array(const EmcPose *p, double *values) {
+    for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
+}
+
+static void read_limits(double period_s) {
+#ifdef SPLINEFEED_TP_JERK
+    const double jerk = status->planner_type == 1 ? status->jerk : 0.0;
+#else
+    const double jerk = 0.0;
+#endif
+    module_limits(&machine, period_s, velocity_limit, acceleration_limit, jerk);
+}
+
+/* ------------------------------------------------------------------ ends and beginnings */
+static void show_rest(TP_STRUCT *tp) {
+    status->distance_to_go = 0.0;
+    status->enables_queued = status->enables_new;
+    status->requested_vel = 0.0;
+    status->current_vel = 0.0;
+#ifdef SPLINEFEED_TP_JERK
+    status->current_acc = status->current_jerk = 0.0;
+#endif
+    status->spindleSync = 0;
+    memset(&status->dtg, 0, sizeof status->dtg);
+    tp->motionType = 0;
+    tp->activeDepth = tp->depth = 0;
+    tp->execId = 0;
+}
+
+void tp_clear_io(TP_STRUCT *tp) { memset(&tp->syncdio, 0, sizeof tp->syncdio); }
+
+unsigned tp_queued(void) { return out.last - out.first; }
+
+/* Nothing is queued, and the machine stands. */
+static void all_over(TP_STRUCT *tp) {
+    tp->goalPos = tp->currentPos;
+    tp->done = 1;
+    tp->aborting = 0;
+    tp->pausing = 0;
+    begun = out.last;
+    show_rest(tp);
+}
+
+void tp_state_position(TP_STRUCT *tp) {
+    double position[tpc_axes];
+    to_array(&tp->currentPos, position);
+    tpc_set(position);
+    out.first = out.pushed = out.last;
+    out.waits = 0;
+}
+
+int tpClear(TP_STRUCT *tp) {
+    tp_state_position(tp);
+    all_over(tp);
+    tp->nextId = 0;
+    memset(&tp->execTag, 0, sizeof tp->execTag);
+    tp->termCond = TC_TERM_COND_PARABOLIC;
+    tp->tolerance = 0.0;
+    tp->reverse_run = TC_DIR_FORWARD;
+    tp->synchronized = 0;
+    tp->uu_per_rev = 0.0;
+    tp->spindle.waiting_for_atspeed = MOTION_INVALID_ID;
+    tp->spindle.waiting_for_index = MOTION_INVALID_ID;
+    status->motionFlag |= EMCMOT_MOTION_INPOS_BIT;
+    tp_clear_io(tp);
+    return TP_ERR_OK;
+}
+
+int tpCreate(TP_STRUCT *tp, int size, int id) {
+    (void)id;
+    if (tp == 0 || size <= 0 || status == 0 || config == 0) return TP_ERR_FAIL;
+    memset(tp, 0, sizeof *tp);
+    memset(told, 0, sizeof told); /* its pages are there before the first period */
+    memset(io, 0, sizeof io);
+    memset(&out, 0, sizeof out);
+    begun = 0;
+    tp->queueSize = size;
+    module_create(&machine);
+    return tpClear(tp);
+}
+
+/* ------------------------------------------------------------------ new moves */
+/* The feed of a move, units/s. Task limits that of an arc to less than the axes allow, sqrt(0.87 a r). Where it has done
+ * so, what the program says is in the tag. */
+static double feed_of(int canon, double vel, double max_vel, const struct state_tag_t *tag) {
+    const unsigned long flags = tag->packed_flags;
+    if (canon == EMC_MOTION_TYPE_TRAVERSE || vel < max_vel * (1.0 - 1e-9) || !(flags >> GM_FLAG_FEED_UPM & 1) ||
+        (flags >> GM_FLAG_FEED_INVERSE_TIME & 1)) {
+        return vel;
+    }
+    const double mm = flags >> GM_FLAG_UNITS & 1 ? 25.4 : 1.0; /* of the program's unit */
+    const double asked = (double)tag->fields_float[GM_FIELD_FLOAT_FEED] * mm / machine.mm_per_unit / 60.0;
+    return asked > vel ? asked : vel;
+}
+
+static int refused(TP_STRUCT *tp, const EmcPose *end) {
+    if (tp == 0 || tp->aborting || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
+    if (tp->synchronized == TC_SYNC_POSITION) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: moves that follow the spindle's position (G33, G76) are not done\n");
+        return TP_ERR_INVALID;
+    }
+    for (int k = 0; k < tpc_axes; ++k) {
+        if (!module_has_axis(k) && fabs(tp_coordinate(end, k) - tp_coordinate(&tp->goalPos, k)) > 1e-9) {
+            rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: axis %c moves, but the module's parameter axes does not name it\n",
+                            "XYZABCUVW"[k]);
+            return TP_ERR_INVALID;
+        }
+    }
+    return TP_ERR_OK;
+}
+
+struct new_move { /* what tpAddLine and tpAddCircle have in common */
+    int canon, indexer;
+    double vel, max_vel;
+    unsigned char enables;
+    char atspeed;
+    struct state_tag_t *tag;
+};
+
+/* The feed of moves that follow the spindle's speed is for the speed that was ordered. */
+static double synced_feed(TP_STRUCT *tp) {
+    const int s = tp->spindle.spindle_num;
+    const double rpm = fabs(status->spindle_status[s].speed);
+    per_rev_nominal = rpm > 0.0 ? rpm : 1.0;
+    return tp->uu_per_rev * per_rev_nominal / 60.0;
+}
+
+static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, const struct new_move *from) {
+    const int synced = tp->synchronized == TC_SYNC_VELOCITY;
+    move->feed = synced ? synced_feed(tp) : feed_of(from->canon, from->vel, from->max_vel, from->tag);
+    move->max_feed = 0.0;
+    move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
+                 : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
+                                                      : TPC_CONTINUOUS;
+    move->tolerance = move->mode != TPC_CONTINUOUS ? 0.0 : tp->tolerance > 0.0 ? tp->tolerance : module_tolerance();
+    move->stands_before = from->atspeed || from->indexer != -1;
+    move->stops = from->indexer != -1;
+    move->probes = from->canon == EMC_MOTION_TYPE_PROBING;
+    to_array(end, move->to);
+    const int error = tpc_add(move);
+    if (error == -1) return TP_ERR_ZERO_LENGTH;
+    if (error != 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: move %d: %s\n", tp->nextId, tpc_reason(error));
+        return TP_ERR_INVALID;
+    }
+    struct told *q = &told[out.last % tpc_capacity];
+    q->end = *end;
+    q->vel = from->vel;
+    q->id = tp->nextId;
+    q->canon = from->canon;
+    q->indexer = from->indexer;
+    q->synced = synced ? tp->spindle.spindle_num + 1 : 0;
+    q->enables = from->enables;
+    q->atspeed = from->atspeed;
+    q->tag = *from->tag;
+    io[out.last % tpc_capacity] = tp->syncdio;
+    ++out.last;
+    tp->goalPos = *end;
+    tp->nextId = q->id + 1;
+    tp->done = 0;
+    tp->depth = (int)(out.last - out.first);
+    tp_clear_io(tp);
+    return TP_ERR_OK;
+}
+
+int tpAddLine(TP_STRUCT *tp, EmcPose end, int canon, double vel, double max_vel, double acc TP_JERK_PARAMETER,
+              unsigned char enables, char atspeed, int indexer, struct state_tag_t tag) {
+    (void)acc;
+    TP_JERK_UNUSED;
+    const int error = refused(tp, &end);
+    if (error != TP_ERR_OK) return error;
+    struct tpc_move move;
+    memset(&move, 0, sizeof move);
+    const struct new_move from = {canon, indexer, vel, max_vel, enables, atspeed, &tag};
+    return append(tp, &end, &move, &from);
+}
+
+int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian centre, PmCartesian normal, int turn, int canon, double vel,
+                double max_vel, double acc TP_JERK_PARAMETER, unsigned char enables, char atspeed, struct state_tag_t tag) {
+    (void)acc;
+    TP_JERK_UNUSED;
+    const int error = refused(tp, &end);
+    if (error != TP_ERR_OK) return error;
+    const double length = sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+    if (!(length > 0.0)) return TP_ERR_GEOM;
+    struct tpc_move move;
+    memset(&move, 0, sizeof move);
+    move.arc = 1;
+    const double n[3] = {normal.x / length, normal.y / length, normal.z / length};
+    const double c[3] = {centre.x, centre.y, centre.z};
+    double a[3], b[3];
+    for (int k = 0; k < 3; ++k) {
+        move.normal[k] = n[k];
+        move.centre[k] = c[k];
+        a[k] = tp_coordinate(&tp->goalPos, k) - c[k];
+        b[k] = tp_coordinate(&end, k) - c[k];
+    }
+    move.sweep_rad = tp_sweep(a, b, n, turn);
+    const struct new_move from = {canon, -1, vel, max_vel, enables, atspeed, &tag};
+    return append(tp, &end, &move, &from);
+}
+
+int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double max_vel, double acc TP_JERK_PARAMETER,
+                  unsigned char enables, double scale, struct state_tag_t tag) {
+    (void)tp, (void)end, (void)vel, (void)max_vel, (void)acc, (void)enables, (void)scale, (void)tag;
+    TP_JERK_UNUSED;
+    rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: rigid tapping (G33.1) is not done\n");
+    return TP_ERR_INVALID;
+}
+
+/* ------------------------------------------------------------------ a servo period */
+static void write_io(const syncdio_t *change) {
+    if (!change->anychanged) return;
+    for (int i = 0; i < config->numDIO; ++i) {
+        if ((change->dio_mask >> i) & 1) dio_write(i, change->dios[i] > 0);
+    }
+    for (int i = 0; i < config->numAIO; ++i) {
+        if ((change->aio_mask >> i) & 1) aio_write(i, change->aios[i]);
+    }
+}
+
+/* Moves that begin write their outputs, those that are over lock their indexers. */
+static void begin_moves(unsigned before) {
+    for (unsigned n = before; n != out.first; ++n) {
+        const struct told *over = &told[n % tpc_capacity];
+        if (over->indexer != -1) set_rotary_unlock(over->indexer, 0);
+    }
+    const unsigned behind = out.first == out.last ? out.first : out.first + 1;
+    const int moves = out.first == out.last || out.pushed != out.first; /* it does not wait for the spindle */
+    for (; moves && (int)(behind - begun) > 0; ++begun) write_io(&io[begun % tpc_capacity]);
+}
+
+/* Whether the move that waits at standstill may begin. */
+static int may_begin(TP_STRUCT *tp) {
+    if (!out.waits) return 0;
+    const struct told *q = &told[out.pushed % tpc_capacity];
+    if (q->atspeed) {
+        for (int s = 0; s < config->numSpindles; ++s) {
+            if (!status->spindle_status[s].at_speed) {
+                tp->spindle.waiting_for_atspeed = q->id;
+                return 0;
+            }
+        }
+    }
+    tp->spindle.waiting_for_atspeed = MOTION_INVALID_ID;
+    if (q->indexer != -1) {
+        set_rotary_unlock(q->indexer, 1);
+        if (!is_rotary_unlocked(q->indexer)) return 0;
+    }
+    return 1;
+}
+
+/* 2.10 shows the acceleration and the jerk along the path, too. */
+static void show_speed(const TP_STRUCT *tp, double speed) {
+#ifdef SPLINEFEED_TP_JERK
+    const double acceleration = (speed - status->current_vel) / tp->cycleTime;
+    status->current_jerk = (acceleration - status->current_acc) / tp->cycleTime;
+    status->current_acc = acceleration;
+#else
+    (void)tp;
+#endif
+    status->current_vel = speed;
+}
+
+static void show_move(TP_STRUCT *tp) {
+    const struct told *q = &told[out.first % tpc_capacity];
+    tp->depth = (int)(out.last - out.first);
+    tp->activeDepth = (int)(out.pushed - out.first);
+    tp->execId = q->id;
+    tp->execTag = q->tag;
+    tp->motionType = q->canon;
+    status->enables_queued = q->enables;
+    status->requested_vel = q->vel * status->net_feed_scale;
+    show_speed(tp, out.speed);
+    status->spindleSync = q->synced;
+    double left = 0.0;
+    for (int k = 0; k < tpc_axes; ++k) {
+        *tp_part(&status->dtg, k) = out.to_go[k];
+        left += k < 3 ? out.to_go[k] * out.to_go[k] : 0.0;
+    }
+    status->distance_to_go = sqrt(left); /* straight; on an arc it is more */
+}
+
+/* Feed override, adaptive feed and hold, as motmod has multiplied them; with moves in mm per revolution the spindle's. */
+static double ratio_now(void) {
+    double ratio = status->net_feed_scale;
+    const struct told *q = &told[out.first % tpc_capacity];
+    if (out.first != out.last && q->synced) {
+        ratio *= 60.0 * fabs(status->spindle_status[q->synced - 1].spindleSpeedIn) / per_rev_nominal; /* of 1/s and 1/min */
+    }
+    return ratio;
+}
+
+static void run(TP_STRUCT *tp) {
+    status->tcqlen = (int)(out.last - out.first);
+    if (tpc_begins() && !tp->aborting) {
+        read_limits(tp->cycleTime);
+        tpc_begin(&machine);
+    }
+    const unsigned before = out.first;
+    struct tpc_input in;
+    in.ratio = ratio_now();
+    in.max_feed = tp->vLimit > 0.0 ? tp->vLimit : 0.0;
+    in.hold = tp->pausing;
+    in.abort = tp->aborting;
+    in.may_begin = may_begin(tp);
+    tpc_run(&in, &out);
+    for (int k = 0; k < machine.axes; ++k) {
+        if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
+    }
+    if (out.error != 0) rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: %s\n", out.error);
+    if (tp->aborting) {
+        begun = out.last; /* what has not begun writes nothing */
+    }
+    begin_moves(before);
+    if (out.first == out.last) {
+        if (before != out.last && !tp->aborting) tp->currentPos = told[(out.last - 1) % tpc_capacity].end;
+        all_over(tp);
+    } else {
+        show_move(tp);
+    }
+}
+
+int tpRunCycle(TP_STRUCT *tp, long period) {
+    (void)period;
+    const long long start = rtapi_get_time();
+    const int busy = out.first != out.last;
+    run(tp);
+    if (busy) module_count(rtapi_get_time() - start);
+    return TP_ERR_OK;
+}
+
+EXPORT_SYMBOL(tpMotFunctions);
+EXPORT_SYMBOL(tpMotData);
+EXPORT_SYMBOL(tpAddCircle);
+EXPORT_SYMBOL(tpAddLine);
+EXPORT_SYMBOL(tpAddRigidTap);
+EXPORT_SYMBOL(tpClear);
+EXPORT_SYMBOL(tpCreate);
+EXPORT_SYMBOL(tpRunCycle);

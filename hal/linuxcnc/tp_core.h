@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ * tp_core.h: the motion core as the C side of the module sees it. Plain types: LinuxCNC's headers are C, and declare
+ * other things when they see C++. Lengths in the machine's units (mm or inches, degrees), times in seconds.
+ *
+ * All of it but tpc_bytes() and tpc_create() is called in the servo thread. Nothing takes memory, waits or locks. */
+#ifndef SPLINEFEED_TP_CORE_H
+#define SPLINEFEED_TP_CORE_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { tpc_axes = 9, tpc_capacity = 2048 }; /* X Y Z A B C U V W; moves in the queue, a power of two */
+
+struct tpc_machine {
+    int axes;                  /* that are planned, the first three are X Y Z */
+    int axis[tpc_axes];        /* their places in X Y Z A B C U V W */
+    double velocity[tpc_axes]; /* in the order of `axis` */
+    double acceleration[tpc_axes];
+    double jerk[tpc_axes]; /* 0: none */
+    double mm_per_unit;    /* of the axes that are not rotary: 1 or 25.4 */
+    double period_s;       /* of the servo thread */
+};
+
+enum tpc_mode { TPC_CONTINUOUS, TPC_EXACT_PATH, TPC_EXACT_STOP };
+
+struct tpc_move {
+    int arc; /* 0: a line */
+    enum tpc_mode mode;
+    int stands_before; /* the machine waits at its start until tpc_input.may_begin */
+    int stops;         /* and stands at its end, whatever the mode */
+    int probes;        /* few segments are ready while it runs */
+    double to[tpc_axes];
+    double centre[3], normal[3], sweep_rad;
+    double tolerance, feed, max_feed; /* max_feed 0: none */
+};
+
+struct tpc_input {
+    double ratio;    /* of the programmed feed, 0 to 2 */
+    double max_feed; /* 0 stops; a large number: none */
+    int hold, abort, may_begin;
+};
+
+struct tpc_output {
+    double position[tpc_axes];
+    double to_go[tpc_axes]; /* to the end of the move under way */
+    double speed;           /* of X Y Z, of the others where those stand */
+    unsigned first, pushed, last; /* sequence numbers: the move under way, the next one that is planned, one behind the
+                                     newest. Nothing is queued where first == last, and then the machine stands. */
+    int waits;                    /* the machine stands before move `pushed`, until may_begin */
+    const char *error;            /* why nothing moves; 0: nothing is wrong */
+};
+
+struct tpc_figures {
+    unsigned busy;   /* calls of the planner whose share of a period was not enough */
+    unsigned urgent; /* segments of an old plan, because a new one was late: the machine slowed down */
+    unsigned late;   /* periods without a segment in motion: never */
+};
+
+/* Memory of the core. */
+unsigned long tpc_bytes(void);
+struct tpc_settings {
+    long long (*now_ns)(void); /* a clock */
+    double share;              /* of a period that planning may take */
+    int ahead;                 /* segments that are ready */
+    double idle_s;             /* without a new move: then the path ends with a stop */
+};
+
+/* Once, before anything else. Of the machine the axes, units and period count. */
+void tpc_create(const struct tpc_settings *settings, const struct tpc_machine *machine);
+/* States the position, and forgets all moves. */
+void tpc_set(const double *position);
+/* Whether the next tpc_run() begins a path: then tpc_begin() comes before, with the limits of this moment. */
+int tpc_begins(void);
+void tpc_begin(const struct tpc_machine *machine);
+/* Queues a move from where the last one ends. 0; or -1: it has no length and is left out; or the core's error. */
+int tpc_add(const struct tpc_move *move);
+const char *tpc_reason(int error);
+/* A servo period. */
+void tpc_run(const struct tpc_input *input, struct tpc_output *output);
+void tpc_tell(struct tpc_figures *figures);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// The machine along the segments, and the move that it is on.
+//
+// A segment names the move at the end of its piece of path: of a piece that stands for many short lines the last one,
+// of a rounded corner the one before it. A move is left where the machine passes the plane through its end that halves
+// the angle to the next one.
+#include "tp_motion.hpp"
+
+#include <cmath>
+
+namespace splinefeed::linuxcnc {
+
+namespace {
+
+constexpr double mm_per_unit_of_segment = 1.0 / (1024.0 * static_cast<double>(units_per_count));
+constexpr unsigned most_left = 64; // moves that are over, in a period
+constexpr double rounding_s = 1e-12;
+
+double seconds(const FeedSegment& segment) noexcept {
+    return static_cast<double>(segment.duration_ticks) / ticks_per_s;
+}
+
+} // namespace
+
+// On the cubic of the present segment.
+Mm TpMotion::place() const noexcept {
+    const double u = smaller(in_now_s_ / seconds(now_), 1.0);
+    const double w = 1.0 - u;
+    Mm out{};
+    for (const unsigned k : indices(machine_.axes)) {
+        const auto start = static_cast<double>(now_.start[k]);
+        const double units = static_cast<double>(now_.end[k] - now_.start[k]) * u * u * (3.0 - 2.0 * u) +
+                             static_cast<double>(now_.start_velocity[k]) * u * w * w -
+                             static_cast<double>(now_.end_velocity[k]) * u * u * w;
+        out[k] = (start + units) * mm_per_unit_of_segment;
+    }
+    return out;
+}
+
+bool TpMotion::rests() const noexcept {
+    return !has_now_ || (now_.ends_at_rest() && in_now_s_ >= seconds(now_) - rounding_s);
+}
+
+// A period on.
+void TpMotion::follow() noexcept {
+    if (rests() && unfinished_ && ring_count_ < ahead_) {
+        return; // from standstill with a store: the first plan is the longest work
+    }
+    in_now_s_ += machine_.period_s;
+    while (!has_now_ || in_now_s_ >= seconds(now_) - rounding_s) {
+        if (ring_count_ == 0) {
+            figures_.late += has_now_ && !now_.ends_at_rest() ? 1U : 0U;
+            in_now_s_ = has_now_ ? seconds(now_) : 0.0;
+            break;
+        }
+        in_now_s_ = has_now_ ? larger(in_now_s_ - seconds(now_), 0.0) : machine_.period_s;
+        now_ = ring_[ring_head_];
+        ring_head_ = (ring_head_ + 1U) % ring_size;
+        --ring_count_;
+        has_now_ = true;
+    }
+    if (has_now_) {
+        at_ = place();
+        come_to(base_ + now_.waypoint, at_);
+    }
+}
+
+// The machine is on the piece of path that ends with move n.
+void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
+    if (n != piece_) { // the piece before is over, and with it its move
+        if (static_cast<int>(piece_ + 1U - floor_) > 0) {
+            floor_ = piece_ + 1U;
+        }
+        piece_ = n;
+    }
+    for (unsigned i = 0; i < most_left && first_ != n && static_cast<int>(floor_ - first_) > 0; ++i) {
+        ++first_;
+    }
+    for (unsigned i = 0; i<most_left&& static_cast<int>(n + 1U - first_)> 0 && pushed_ - first_ > 1U; ++i) {
+        const QueuedMove& here = move(first_);
+        const QueuedMove& next = move(first_ + 1U);
+        double along = 0.0;
+        for (const unsigned k : indices(machine_.axes)) {
+            along += (at[k] - here.to[k]) * (here.out[k] + next.in[k]);
+        }
+        if (along < 0.0) {
+            neared_ = first_;
+            break;
+        }
+        if (here.element.shape == MoveShape::arc && neared_ != first_) {
+            break; // its start is behind that plane, too
+        }
+        ++first_;
+    }
+}
+
+void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
+    double linear_sq = 0.0;
+    double all_sq = 0.0;
+    for (const unsigned k : indices(machine_.axes)) {
+        const double mm = scale(k);
+        const double moved = (at_[k] - before[k]) / mm;
+        all_sq += moved * moved;
+        linear_sq += k < 3 ? moved * moved : 0.0;
+        output.position[machine_.axis[k]] = at_[k] / mm;
+        output.to_go[machine_.axis[k]] = first_ != last_ ? (move(first_).to[k] - at_[k]) / mm : 0.0;
+    }
+    output.speed = std::sqrt(linear_sq > 0.0 ? linear_sq : all_sq) / machine_.period_s;
+    output.first = first_;
+    output.pushed = pushed_;
+    output.last = last_;
+    output.waits = waits_ ? 1 : 0;
+    output.error = error_;
+}
+
+void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
+    const Mm before = at_;
+    ++idle_;
+    if (planning_) {
+        steer(input);
+        plan();
+        follow();
+        const bool aborted = sent_abort_ && stands() && trajectory_.activity() == Activity::aborted;
+        const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
+        if (complete) {
+            at_ = move(last_ - 1U).to; // to the last digit
+        }
+        if (aborted || complete) {
+            forget();
+            end_ = at_;
+        }
+    } else if (input.abort != 0 || error_ != nullptr) {
+        forget();
+        end_ = at_;
+    }
+    tell(before, output);
+    error_ = nullptr;
+}
+
+} // namespace splinefeed::linuxcnc

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT
+ * tp_module.h: what the C sources of the module share: its parameters, its figures in HAL, and poses. */
+#ifndef SPLINEFEED_TP_MODULE_H
+#define SPLINEFEED_TP_MODULE_H
+
+#include "rtapi.h"
+#include "rtapi_math.h"
+#include "rtapi_string.h"
+#include "hal.h"
+#include "motion.h"
+#include "motion_types.h"
+#include "tp.h"
+
+#include "tp_core.h"
+
+/* From 2.10 on, three functions have the jerk limit along a move as a parameter. */
+#ifdef SPLINEFEED_TP_JERK
+#define TP_JERK_PARAMETER , double ini_maxjerk
+#define TP_JERK_UNUSED (void)ini_maxjerk
+#else
+#define TP_JERK_PARAMETER
+#define TP_JERK_UNUSED (void)0
+#endif
+
+/* module.c */
+/* The planned axes, their jerk limits and units. */
+void module_axes(struct tpc_machine *machine);
+/* The same, and their limits of this moment. @param jerk_elsewhere of axes without a jerk limit of their own; 0: none */
+void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
+                   double jerk_elsewhere);
+int module_has_axis(int k); /* k: a place in X Y Z A B C U V W */
+double module_tolerance(void); /* of G64 without P, in machine units */
+void module_create(struct tpc_machine *machine);
+/* What a period with moves took. */
+void module_count(long long ns);
+
+/* splinefeed_tp.c */
+void tp_clear_io(TP_STRUCT *tp);
+void tp_state_position(TP_STRUCT *tp); /* the core forgets its moves, and is at currentPos */
+unsigned tp_queued(void);
+
+/* tp_arc.c */
+/* The angle of an arc from its start to its end about the unit normal n; a and b: its ends from its centre. */
+double tp_sweep(const double *a, const double *b, const double *n, int turn);
+
+static inline double *tp_part(EmcPose *p, int k) {
+    double *const all[] = {&p->tran.x, &p->tran.y, &p->tran.z, &p->a, &p->b, &p->c, &p->u, &p->v, &p->w};
+    return all[k];
+}
+
+static inline double tp_coordinate(const EmcPose *p, int k) {
+    const double *const all[] = {&p->tran.x, &p->tran.y, &p->tran.z, &p->a, &p->b, &p->c, &p->u, &p->v, &p->w};
+    return *all[k];
+}
+
+#endif

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "tp_motion.hpp"
+
+#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
+
+#include <cmath>
+
+namespace splinefeed::linuxcnc {
+
+namespace {
+
+constexpr double steps_per_mm = 1024.0; // +-2^21 mm; a segment's unit is 3e-13 mm
+constexpr int fewest_ahead = 3;         // segments that are ready: two are needed, one is made
+constexpr int probing_with_jerk = 20;   // the least that a search for a stop usually needs
+constexpr unsigned part = 16;           // steps of planning between two looks at the clock
+constexpr double no_limit_mm_s = 65536.0;
+constexpr double at_rest = 0.3; // of the time without a new move: a stop more costs less there
+constexpr double same_place_mm = 1e-6;
+constexpr unsigned most_pushed = 4; // moves, between two looks at the clock
+
+MachineSettings settings_of(const tpc_machine& machine) noexcept {
+    MachineSettings out;
+    out.axes = machine.axes;
+    out.max_feed_mm_s = 0.0;
+    for (const unsigned k : indices(machine.axes)) {
+        AxisSettings& axis = out.axis[k];
+        axis.rotary = machine.axis[k] >= 3 && machine.axis[k] <= 5;
+        const double mm = axis.rotary ? 1.0 : machine.mm_per_unit;
+        axis.max_velocity_mm_s = machine.velocity[k] * mm;
+        axis.max_acceleration_mm_s2 = machine.acceleration[k] * mm;
+        axis.max_jerk_mm_s3 = machine.jerk[k] * mm;
+        axis.steps_per_mm = steps_per_mm;
+        out.max_feed_mm_s += axis.max_velocity_mm_s * axis.max_velocity_mm_s;
+    }
+    out.max_feed_mm_s = std::sqrt(out.max_feed_mm_s);
+    out.sample_period_us = static_cast<int>(machine.period_s * 1e6 + 0.5);
+    return out;
+}
+
+PathMode mode_of(tpc_mode mode) noexcept {
+    return mode == TPC_CONTINUOUS   ? PathMode::continuous
+           : mode == TPC_EXACT_PATH ? PathMode::exact_path
+                                    : PathMode::exact_stop;
+}
+
+/// Unit directions at the ends of an arc, in its plane.
+void set_directions(const PathElement<double>& element, const Mm& from, QueuedMove& out) noexcept {
+    const auto& n = element.arc.normal;
+    const double turns = element.arc.sweep_rad < 0.0 ? -1.0 : 1.0;
+    for (const bool at_end : {false, true}) {
+        std::array<double, 3> r{};
+        for (unsigned k = 0; k < 3; ++k) {
+            r[k] = (at_end ? out.to[k] : from[k]) - to_mm(element.arc.centre[k]);
+        }
+        std::array<double, 3> along{n[1] * r[2] - n[2] * r[1], n[2] * r[0] - n[0] * r[2], n[0] * r[1] - n[1] * r[0]};
+        const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+        for (unsigned k = 0; k < 3 && length > 0.0; ++k) {
+            (at_end ? out.out : out.in)[k] = turns * along[k] / length;
+        }
+    }
+}
+
+} // namespace
+
+void TpMotion::create(const tpc_settings& settings, const tpc_machine& machine) noexcept {
+    settings_ = settings;
+    settings_.ahead = smaller(larger(settings.ahead, fewest_ahead), static_cast<int>(ring_size));
+    machine_ = machine;
+    rules_ = path_rules(settings_of(machine));
+}
+
+Mm TpMotion::mm_of(const double* position) const noexcept {
+    Mm out{};
+    for (const unsigned k : indices(machine_.axes)) {
+        out[k] = position[machine_.axis[k]] * scale(k);
+    }
+    return out;
+}
+
+void TpMotion::forget() noexcept {
+    first_ = pushed_ = last_;
+    ring_head_ = ring_count_ = 0;
+    planning_ = waits_ = has_now_ = unfinished_ = false;
+    in_now_s_ = 0.0;
+}
+
+void TpMotion::set(const double* position) noexcept {
+    forget();
+    at_ = end_ = mm_of(position);
+}
+
+int TpMotion::add(const tpc_move& from) noexcept {
+    QueuedMove& out = move(last_);
+    out = {};
+    PathElement<double>& element = out.element;
+    element.shape = from.arc != 0 ? MoveShape::arc : MoveShape::line;
+    element.mode = mode_of(from.mode);
+    element.stop_at_end = from.stops != 0;
+    element.tolerance_mm = from.tolerance * machine_.mm_per_unit;
+    element.chain_tolerance_mm = element.tolerance_mm * rules_.chain_quarters / 4.0;
+    out.to = mm_of(from.to);
+    bool linear = false;
+    double length_sq = 0.0;
+    for (const unsigned k : indices(machine_.axes)) {
+        if (!position_representable(out.to[k])) {
+            return static_cast<int>(Error::position_out_of_range);
+        }
+        element.to[k] = position_from_mm(out.to[k]);
+        const double way = out.to[k] - end_[k];
+        linear = linear || ((machine_.axis[k] < 3 || machine_.axis[k] > 5) && way != 0.0);
+        length_sq += way * way;
+        out.in[k] = out.out[k] = way;
+    }
+    const double length = std::sqrt(length_sq);
+    for (const unsigned k : indices(machine_.axes)) {
+        out.in[k] = out.out[k] = length > 0.0 ? out.in[k] / length : 0.0;
+    }
+    if (from.arc != 0) {
+        for (unsigned k = 0; k < 3; ++k) {
+            element.arc.centre[k] = position_from_mm(from.centre[k] * machine_.mm_per_unit);
+            element.arc.normal[k] = from.normal[k];
+        }
+        element.arc.sweep_rad = from.sweep_rad;
+        set_directions(element, end_, out);
+        linear = true;
+    }
+    const double feed_scale = linear ? machine_.mm_per_unit : 1.0;
+    element.feed_mm_s = from.feed * feed_scale;
+    element.max_feed_mm_s = from.max_feed * feed_scale;
+    PerAxis<Position> start{};
+    for (const unsigned k : indices(machine_.axes)) {
+        start[k] = position_from_mm(end_[k]);
+    }
+    const Result<double> way = BlendedPath<double>::length_of(start, element, machine_.axes);
+    if (!way.has_value()) {
+        return static_cast<int>(way.error());
+    }
+    if (!(*way > 0.0)) {
+        return -1;
+    }
+    out.stands_before = from.stands_before != 0;
+    out.probes = from.probes != 0;
+    end_ = out.to;
+    ++last_;
+    idle_ = 0;
+    return 0;
+}
+
+// A path begins at standstill, with the limits of this moment.
+void TpMotion::begin(const tpc_machine& machine) noexcept {
+    machine_ = machine;
+    share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
+    const Status begun = begin_path();
+    error_ = begun.ok() ? nullptr : describe(begun.error());
+    planning_ = begun.ok();
+}
+
+Status TpMotion::begin_path() noexcept {
+    const MachineSettings settings = settings_of(machine_);
+    const auto made = MotionLimits<double>::make(settings);
+    if (!made.has_value()) {
+        return Error::planner_unsuited;
+    }
+    limits_ = *made;
+    rules_ = path_rules(settings);
+    TolerancePath<double>& path = path_.build(machine_.axes, rules_);
+    PerAxis<Position> start{};
+    for (const unsigned k : indices(machine_.axes)) {
+        start[k] = position_from_mm(at_[k]);
+    }
+    if (const Status started = path.start(start); !started.ok()) {
+        return started;
+    }
+    Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
+    const auto trajectory = Trajectory<double>::make(path, limits_, planner);
+    if (!trajectory.has_value()) {
+        return trajectory.error();
+    }
+    trajectory_ = *trajectory;
+    base_ = floor_ = pushed_;
+    neared_ = pushed_ - 1U;
+    piece_ = pushed_ - 1U;
+    sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
+    sent_ratio_ = 1.0;
+    sent_max_ = no_limit_mm_s;
+    return {};
+}
+
+void TpMotion::steer(const tpc_input& input) noexcept {
+    may_begin_ = input.may_begin != 0;
+    if (input.abort != 0 && !sent_abort_) {
+        trajectory_.abort();
+        sent_abort_ = true;
+    }
+    const bool hold = input.hold != 0 && input.abort == 0;
+    if (hold != sent_hold_) {
+        if (hold) {
+            trajectory_.hold();
+        } else {
+            trajectory_.resume();
+        }
+        sent_hold_ = hold;
+    }
+    if (input.ratio != sent_ratio_) {
+        sent_ratio_ = input.ratio;
+        trajectory_.override_feed(input.ratio);
+    }
+    const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
+    if (most != sent_max_) {
+        sent_max_ = most;
+        trajectory_.limit_feed(most);
+    }
+}
+
+// At standstill at the end of all that the path has, and not held before it.
+bool TpMotion::at_known_end() noexcept {
+    if (!stands() || (has_now_ ? base_ + now_.waypoint + 1U : base_) != pushed_) {
+        return false;
+    }
+    bool there = true;
+    for (const unsigned k : indices(has_now_ ? machine_.axes : 0)) {
+        there = there && std::fabs(at_[k] - move(pushed_ - 1U).to[k]) < same_place_mm;
+    }
+    return there;
+}
+
+// Gives the path one more move; false: none may go now. The newest one stays here until it is released, because the one
+// behind it may need the machine to stand at its end.
+bool TpMotion::push_one(bool release) noexcept {
+    if (pushed_ == last_ || !path_->has_room()) {
+        return false;
+    }
+    QueuedMove& next = move(pushed_);
+    if (next.stands_before) {
+        waits_ = at_known_end();
+        if (!waits_ || !may_begin_) {
+            return false;
+        }
+    }
+    if (pushed_ + 1U == last_) {
+        if (!release) {
+            return false;
+        }
+        next.element.stop_at_end = true;
+    } else if (move(pushed_ + 1U).stands_before) {
+        next.element.stop_at_end = true;
+    }
+    if (const Status pushed = path_->push(next.element); !pushed.ok()) {
+        error_ = describe(pushed.error()); // never: add() has asked
+        return false;
+    }
+    waits_ = false;
+    ++pushed_;
+    return true;
+}
+
+bool TpMotion::push_moves() noexcept {
+    unsigned n = 0;
+    while (n < most_pushed && push_one(false)) {
+        ++n;
+    }
+    return n > 0;
+}
+
+// No move came for a while: the path ends with the one that was kept.
+bool TpMotion::released() noexcept {
+    return idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
+}
+
+// A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
+// ring: until that is full, the motion goes on by the old plan.
+void TpMotion::plan() noexcept {
+    const long long end = settings_.now_ns() + share_ns_;
+    const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
+    ahead_ = static_cast<unsigned>(move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead);
+    static_cast<void>(push_moves());
+    UnderrunPolicy policy = UnderrunPolicy::wait;
+    unfinished_ = false;
+    while (ring_count_ < ahead_) {
+        const bool over = settings_.now_ns() >= end;
+        const bool moves = !trajectory_.at_rest();
+        const bool needed = ring_count_ < 2 && moves;
+        if (over && !needed) {
+            unfinished_ = true;
+            return;
+        }
+        refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
+        const bool urgent = over || refills_;
+        FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
+        const Pull pull = trajectory_.next(out, urgent ? UnderrunPolicy::urgent : policy, urgent ? 1U : part);
+        if (pull == Pull::item) {
+            ++ring_count_;
+            figures_.urgent += urgent ? 1U : 0U;
+            policy = UnderrunPolicy::wait;
+        } else if (pull == Pull::busy) {
+            ++figures_.busy;
+            if (over) { // it has no plan to go on by, so it stands
+                unfinished_ = true;
+                return;
+            }
+        } else if (pull != Pull::starved) {
+            return;
+        } else if (!push_moves()) {
+            if (ring_count_ > 1) {
+                return; // there is time for moves to come
+            }
+            if (!released()) {
+                if (policy != UnderrunPolicy::wait || over) {
+                    return;
+                }
+                policy = UnderrunPolicy::drain;
+            }
+        }
+    }
+    refills_ = false;
+    while (settings_.now_ns() < end && trajectory_.plan_ahead(part)) {
+    }
+}
+
+} // namespace splinefeed::linuxcnc

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// TpMotion: queued moves to the position of every servo period, by the motion core.
+//
+//   add() ──► queue ──► TolerancePath ──► Trajectory ──► ring of segments ──► position
+//             2048      64 moves          512 cells      `ahead`             one a period
+//
+// In each period planning goes on until its share of the period is over, so the next pass of the plan begins as many
+// periods before its result is needed as segments are ready. Where the ring is empty all the same, the motion goes on
+// by the plan that there is, which ends at standstill (UnderrunPolicy::urgent).
+#pragma once
+
+#include "tp_core.h"
+
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/jerk_planner.hpp"
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/trajectory.hpp"
+
+#include <array>
+
+#ifndef SPLINEFEED_TP_WINDOW
+#define SPLINEFEED_TP_WINDOW 512 // cells of look-ahead; a quarter with a jerk limit
+#endif
+
+namespace splinefeed::linuxcnc {
+
+using Mm = PerAxis<double>; ///< mm and degrees, in the order of the planned axes
+
+/// A move in the queue.
+struct QueuedMove {
+    PathElement<double> element{};
+    Mm to{};
+    Mm in{}; ///< unit directions at its ends
+    Mm out{};
+    bool stands_before = false;
+    bool probes = false;
+};
+
+class TpMotion {
+public:
+    void create(const tpc_settings& settings, const tpc_machine& machine) noexcept;
+    void set(const double* position) noexcept;
+    [[nodiscard]] bool begins() const noexcept { return !planning_ && first_ != last_; }
+    void begin(const tpc_machine& machine) noexcept;
+    [[nodiscard]] int add(const tpc_move& move) noexcept;
+    void run(const tpc_input& input, tpc_output& output) noexcept;
+    [[nodiscard]] const tpc_figures& figures() const noexcept { return figures_; }
+
+private:
+    static constexpr std::size_t window_cells = SPLINEFEED_TP_WINDOW;
+    static constexpr std::size_t jerk_cells = window_cells / 4;
+    static constexpr std::size_t all_jerk_cells = jerk_cells + jerk_cells / 3;
+    static constexpr unsigned ring_size = 64;
+
+    [[nodiscard]] QueuedMove& move(unsigned n) noexcept { return queue_[n % tpc_capacity]; }
+    [[nodiscard]] double scale(unsigned k) const noexcept {
+        return machine_.axis[k] < 3 || machine_.axis[k] > 5 ? machine_.mm_per_unit : 1.0;
+    }
+    [[nodiscard]] Mm mm_of(const double* position) const noexcept;
+    void forget() noexcept;
+    void steer(const tpc_input& input) noexcept;
+    void plan() noexcept;
+    [[nodiscard]] Status begin_path() noexcept;
+    bool push_one(bool release) noexcept;
+    bool push_moves() noexcept;
+    [[nodiscard]] bool released() noexcept;
+    [[nodiscard]] bool rests() const noexcept;
+    [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
+    [[nodiscard]] bool at_known_end() noexcept;
+    void follow() noexcept;
+    [[nodiscard]] Mm place() const noexcept;
+    void come_to(unsigned n, const Mm& at) noexcept;
+    void tell(const Mm& before, tpc_output& output) noexcept;
+
+    tpc_settings settings_{};
+    long long share_ns_ = 0;
+    unsigned ahead_ = 0; // segments that are ready now
+    tpc_machine machine_{};
+    tpc_figures figures_{};
+    const char* error_ = nullptr;
+
+    std::array<PlannedCell<double>, window_cells> window_;
+    std::array<Cell<double>, all_jerk_cells> cells_;
+    std::array<JerkNode<double>, all_jerk_cells + 1> nodes_;
+    std::array<LegNode<double>, all_jerk_cells + 1> scratch_;
+    AccelerationPlanner<double> acceleration_{window_};
+    JerkPlanner<double> jerk_{window_, {cells_, nodes_, scratch_}};
+    Slot<TolerancePath<double>> path_;
+    MotionLimits<double> limits_;
+    PathRules<double> rules_;
+    Trajectory<double> trajectory_;
+
+    // Sequence numbers of moves count up and wrap around.
+    std::array<QueuedMove, tpc_capacity> queue_;
+    unsigned first_ = 0;  // under way
+    unsigned pushed_ = 0; // the next one for the path
+    unsigned last_ = 0;   // one behind the newest
+    unsigned base_ = 0;   // move 0 of the path
+    unsigned floor_ = 0;  // everything before it is over
+    unsigned piece_ = 0;  // the move at the end of the piece of path that the machine is on
+    unsigned neared_ = 0; // the move whose end was seen ahead
+    unsigned idle_ = 0;   // periods since the last new move
+
+    std::array<FeedSegment, ring_size> ring_;
+    unsigned ring_head_ = 0;
+    unsigned ring_count_ = 0;
+    FeedSegment now_{}; // the segment that the machine is on
+    double in_now_s_ = 0.0;
+    Mm at_{};  // where the machine is
+    Mm end_{}; // where the last queued move ends
+    double sent_ratio_ = 1.0;
+    double sent_max_ = 0.0;
+    bool sent_hold_ = false;
+    bool sent_abort_ = false;
+    bool planning_ = false; // a path is begun
+    bool waits_ = false;    // at standstill before move pushed_
+    bool may_begin_ = false;
+    bool has_now_ = false;
+    bool refills_ = false;    // the ring, by the old plan
+    bool unfinished_ = false; // the share of the period was not enough
+};
+
+} // namespace splinefeed::linuxcnc

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# LinuxCNC with splinefeed_tp.so, headless and simulated: limits, ends and steering, at 1 ms and 0.25 ms, with and without a jerk limit, with planning starved in
+# a tenth of the periods.
+source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
+
+need linuxcnc unshare setpriv /usr/bin/python3
+if [[ ! -e /usr/include/linuxcnc/tp.h ]]; then skip "there are no headers of LinuxCNC (Debian: apt-get install linuxcnc-uspace-dev)"; fi
+if ! unshare --user --map-root-user --mount --ipc --net --pid --fork true 2>/dev/null; then skip "there are no unprivileged name spaces"; fi
+if ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then skip "there is no numpy (Debian: apt-get install python3-numpy)"; fi
+
+build=build/linuxcnc
+cmake -G Ninja -B "$build" -DSPLINEFEED_LINUXCNC=ON -DSPLINEFEED_HOST=OFF -DSPLINEFEED_TESTS=OFF -DSPLINEFEED_UNITY_BUILD=OFF >"$build.log"
+cmake --build "$build" --target splinefeed_tp >>"$build.log" || { tail -20 "$build.log"; exit 1; }
+bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --check "$@"; }
+bench --planner stock,module
+bench --planner module --period 250
+for jerk in 0 30000; do
+    bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10
+done

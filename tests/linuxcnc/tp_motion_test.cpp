@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+//
+// The module without LinuxCNC: moves come as task sends them, one a period; the operator interferes at random, and in a
+// tenth of the periods planning gets no time. What is judged are the positions of all periods.
+#include "linuxcnc/tp_motion.hpp"
+
+#include "support/bezier_paths.hpp"
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+using namespace splinefeed::linuxcnc;
+using splinefeed_test::first_round;
+using splinefeed_test::Random;
+using splinefeed_test::rounds;
+
+namespace {
+
+constexpr std::uint64_t seed = 90210;
+
+/// Each look at the clock takes a microsecond; in a starved period the second one a second.
+long long clock_ns = 0;
+bool starved = false;
+long long look() {
+    clock_ns += starved ? 1'000'000'000 : 1'000;
+    return clock_ns;
+}
+
+tpc_machine machine_of(int axes, double period_s, double jerk) {
+    tpc_machine machine{};
+    machine.axes = axes;
+    for (int k = 0; k < axes; ++k) {
+        machine.axis[k] = k;
+        machine.velocity[k] = 100.0;
+        machine.acceleration[k] = 1000.0;
+        machine.jerk[k] = jerk;
+    }
+    machine.mm_per_unit = 1.0;
+    machine.period_s = period_s;
+    return machine;
+}
+
+tpc_move line_to(double x, double y, double feed, double tolerance = 0.01) {
+    tpc_move move{};
+    move.mode = TPC_CONTINUOUS;
+    move.to[0] = x;
+    move.to[1] = y;
+    move.tolerance = tolerance;
+    move.feed = feed;
+    return move;
+}
+
+/// LinuxCNC around the module: a move and a period at a time.
+class Control {
+public:
+    explicit Control(const tpc_machine& machine) : machine_(machine), motion_(std::make_unique<TpMotion>()) {
+        motion_->create({look, 0.1, machine.jerk[0] > 0.0 ? 40 : 8, 0.01}, machine);
+        const double zero[tpc_axes] = {};
+        motion_->set(zero);
+    }
+    int add(const tpc_move& move) {
+        const int error = motion_->add(move);
+        out.last += error == 0 ? 1U : 0U;
+        return error;
+    }
+    void period() {
+        if (motion_->begins() && input.abort == 0) {
+            motion_->begin(machine_);
+        }
+        motion_->run(input, out);
+        places.push_back({out.position[0], out.position[1], out.position[2]});
+        aborted = aborted || input.abort != 0;
+        input.abort = out.first == out.last ? 0 : input.abort;
+    }
+    void until_over() {
+        for (int n = 0; n < 1'000'000 && out.first != out.last; ++n) {
+            period();
+        }
+        REQUIRE(out.first == out.last);
+    }
+    /// The largest use of a limit of the axes.
+    [[nodiscard]] double use() const {
+        double most = 0.0;
+        const double t = machine_.period_s;
+        for (std::size_t i = 3; i < places.size(); ++i) {
+            for (unsigned k = 0; k < 3; ++k) {
+                const auto d = [&](std::size_t n) {
+                    return places[n][k] - places[n - 1][k];
+                };
+                most = std::max(most, std::fabs(d(i)) / t / machine_.velocity[k]);
+                most = std::max(most, std::fabs(d(i) - d(i - 1)) / (t * t) / machine_.acceleration[k]);
+                if (machine_.jerk[k] > 0.0) {
+                    most = std::max(most, std::fabs(d(i) - 2.0 * d(i - 1) + d(i - 2)) / (t * t * t) / machine_.jerk[k]);
+                }
+            }
+        }
+        return most;
+    }
+    [[nodiscard]] const tpc_figures& figures() const { return motion_->figures(); }
+
+    tpc_input input{1.0, 1e6, 0, 0, 0};
+    tpc_output out{};
+    std::vector<std::array<double, 3>> places;
+    bool aborted = false; // at any time
+
+private:
+    tpc_machine machine_;
+    std::unique_ptr<TpMotion> motion_;
+};
+
+/// What an operator may do in a period.
+void interfere(Random& random, Control& control) {
+    tpc_input& input = control.input;
+    switch (random.integer(0, 5)) {
+    case 0: input.hold = 1; break;
+    case 1: input.hold = 0; break;
+    case 2: input.ratio = random.between(0.0, 2.0); break;
+    case 3: input.ratio = random.chance(0.5) ? 0.0 : 1.0; break;
+    case 4: input.max_feed = random.chance(0.3) ? 1e6 : random.between(1.0, 120.0); break;
+    default: input.abort = random.chance(0.1) ? 1 : 0; break;
+    }
+}
+
+} // namespace
+
+TEST_CASE("whatever an operator does, and however late planning is, all limits are kept and the ends are exact",
+          "[linuxcnc]") {
+    for (std::uint64_t n = first_round(); n < static_cast<std::uint64_t>(rounds(30, 1000)); ++n) {
+        Random random(seed + n);
+        const double period_s = random.chance(0.5) ? 0.001 : 0.00025;
+        Control control(machine_of(3, period_s, random.chance(0.5) ? 30'000.0 : 0.0));
+        const bool steered = random.chance(0.8);
+        const double starving = random.chance(0.3) ? 0.1 : 0.0;
+        double x = 0.0;
+        double y = 0.0;
+        const int moves = random.integer(1, 80);
+        const double size = random.decades(0.05, 10.0);
+        CAPTURE(n, period_s, steered, starving, moves, size);
+        for (int i = 0; i < moves; ++i) {
+            x += random.between(-size, size);
+            y += random.between(-size, size);
+            tpc_move move = line_to(x, y, random.decades(20.0, 200.0));
+            move.mode = random.chance(0.1) ? TPC_EXACT_PATH : TPC_CONTINUOUS;
+            const int error = control.add(move);
+            REQUIRE((error == 0 || error == -1));
+            starved = random.chance(starving);
+            if (steered && random.chance(0.01)) {
+                interfere(random, control);
+            }
+            control.period();
+            if (control.input.abort != 0) {
+                break;
+            }
+        }
+        for (int i = 0; steered && i < 3000 && control.out.first != control.out.last; ++i) {
+            starved = random.chance(starving);
+            if (random.chance(0.003)) {
+                interfere(random, control);
+            }
+            control.period();
+        }
+        starved = false;
+        control.input = {1.0, 1e6, 0, control.input.abort, 0};
+        control.until_over();
+        CHECK(control.use() <= 1.0001);
+        CHECK(control.figures().late == 0);
+        if (!control.aborted) {
+            CHECK(control.out.position[0] == x);
+            CHECK(control.out.position[1] == y);
+        }
+        // It goes on from there.
+        REQUIRE(control.add(line_to(control.out.position[0] + 5.0, 1.0, 50.0)) == 0);
+        control.until_over();
+        CHECK(control.out.position[1] == 1.0);
+        CHECK(control.use() <= 1.0001);
+    }
+}
+
+TEST_CASE("the move under way is the one whose end is ahead, also on circles and in chains", "[linuxcnc]") {
+    Control control(machine_of(3, 0.001, 0.0));
+    REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
+    tpc_move circle = line_to(10.0, 0.0, 50.0);
+    circle.arc = 1;
+    circle.normal[2] = 1.0;
+    circle.sweep_rad = 2.0 * 3.14159265358979323846;
+    REQUIRE(control.add(circle) == 0);
+    for (int i = 1; i <= 40; ++i) { // a chain: one curve for all of them
+        REQUIRE(control.add(line_to(10.0 + 0.5 * i, 0.01 * i * i, 50.0)) == 0);
+    }
+    unsigned first = 0;
+    while (control.out.first != control.out.last) {
+        control.period();
+        REQUIRE(control.out.first - first <= 1U); // none is left out
+        const double from_start = std::hypot(control.out.position[0], control.out.position[1]);
+        if (control.out.first == 1 && control.out.first != first) {
+            CHECK(from_start == Approx(10.0).margin(0.2));
+        }
+        if (control.out.first >= 2 && control.out.first + 1 < control.out.last) {
+            CHECK(control.out.position[0] == Approx(10.25 + 0.5 * (control.out.first - 2)).margin(0.5));
+        }
+        first = control.out.first;
+    }
+    CHECK(first == 42);
+}
+
+TEST_CASE("moves of no length are left out, and what cannot be is refused before motion", "[linuxcnc]") {
+    Control control(machine_of(3, 0.001, 0.0));
+    CHECK(control.add(line_to(0.0, 0.0, 50.0)) == -1);
+    CHECK(control.add(line_to(1e9, 0.0, 50.0)) == static_cast<int>(splinefeed::Error::position_out_of_range));
+    tpc_move arc = line_to(1.0, 0.0, 50.0); // its centre is its start
+    arc.arc = 1;
+    arc.normal[2] = 1.0;
+    arc.sweep_rad = 1.0;
+    CHECK(control.add(arc) == static_cast<int>(splinefeed::Error::arc_invalid));
+    control.period();
+    CHECK(control.places.back()[0] == 0.0);
+}
+
+TEST_CASE("a move that waits for the spindle begins when it may, after a stop", "[linuxcnc]") {
+    Control control(machine_of(3, 0.001, 0.0));
+    REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
+    tpc_move waits = line_to(20.0, 0.0, 50.0);
+    waits.stands_before = 1;
+    REQUIRE(control.add(waits) == 0);
+    for (int i = 0; i < 1000; ++i) {
+        control.period();
+    }
+    CHECK(control.out.waits == 1);
+    CHECK(control.out.position[0] == Approx(10.0).margin(1e-9));
+    control.input.may_begin = 1;
+    control.until_over();
+    CHECK(control.out.position[0] == 20.0);
+    CHECK(control.use() <= 1.0001);
+}
+
+TEST_CASE("a hundred thousand short moves", "[linuxcnc]") {
+    Control control(machine_of(3, 0.001, 0.0));
+    double angle = 0.0;
+    for (int i = 0; i < 100'000; ++i) {
+        angle += 0.003;
+        while (control.out.last - control.out.first > tpc_capacity - 48U) {
+            control.period();
+            control.places.erase(control.places.begin(),
+                                 control.places.end() - std::min<long>(4, static_cast<long>(control.places.size())));
+            REQUIRE(control.use() <= 1.0001);
+        }
+        REQUIRE(control.add(line_to(30.0 * std::sin(angle), 20.0 * std::sin(1.7 * angle), 80.0)) == 0);
+    }
+    control.until_over();
+    CHECK(control.use() <= 1.0001);
+    CHECK(control.figures().late == 0);
+    CHECK(control.out.position[0] == 30.0 * std::sin(angle));
+}
