@@ -191,10 +191,6 @@ constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curv
 
 // What run, plan, check and curve have in common.
 void take_path(Job& job, const CLI::App& command, const Typed& typed) {
-    job.run.machine = typed.machine.value_or("");
-    if (typed.machine && job.run.machine.empty()) {
-        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
-    }
     job.command = command.get_name() == "run"     ? Command::run
                   : command.get_name() == "plan"  ? Command::plan
                   : command.get_name() == "check" ? Command::check
@@ -259,8 +255,13 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     const CLI::App& command = *chosen.front();
     refuse_short_names(command, {argv, static_cast<std::size_t>(argc)});
     refuse_extras(command, job);
+    job.run.machine = typed.machine.value_or("");
+    if (typed.machine && job.run.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
     if (takes_no_input(command)) {
         job.command = command.get_name() == "drive" ? Command::drive : Command::link;
+        job.link.machine = job.run.machine;
         return job;
     }
     if (job.run.path.input.empty()) {

@@ -8,6 +8,7 @@
 #include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/program_lines_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
+#include "host_sim/config/toml_setting.hpp"
 
 #include <array>
 #include <cmath>
@@ -46,6 +47,26 @@ std::vector<std::string_view> path_keys() {
     }
     return keys;
 }
+
+constexpr std::string_view default_text = R"(name = "default machine"
+[path]
+max_feed_mm_s = 100
+[[axis]]
+name = "x"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+steps_per_mm = 320
+[[axis]]
+name = "y"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+steps_per_mm = 320
+[[axis]]
+name = "z"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+steps_per_mm = 320
+)";
 
 constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 
@@ -337,23 +358,35 @@ double standstill_window_counts(const MachineDescription& machine, unsigned axis
     return window_mm ? std::fmax(*window_mm * steps_per_mm, 1.0) : std::fmax(default_mm * steps_per_mm, default_counts);
 }
 
-MachineDescription parse_machine(std::string_view text, const std::string& file) {
-    return MachineReader(file).machine(parse_toml(text, file));
-}
-
-MachineDescription read_machine_file(const std::string& path) {
-    constexpr std::size_t largest = std::size_t{1} << 20;
-    return parse_machine(read_text_file(path, largest), path);
-}
-
-MachineDescription default_machine() {
-    MachineDescription machine;
-    machine.settings.axes = 3;
-    for (unsigned k = 0; k < 3; ++k) {
-        machine.settings.axis[k] = {
-            .max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .steps_per_mm = 320.0};
-        machine.axis_name[k] = std::string(axis_letters.substr(k, 1));
+MachineDescription parse_machine(std::string_view text, const std::string& file,
+                                 const std::vector<std::string>& settings) {
+    toml::table root = parse_toml(text, file);
+    MachineDescription machine = MachineReader(file).machine(root); // what is wrong without them has a line
+    if (settings.empty()) {
+        return machine;
     }
+    for (const std::string& setting : settings) {
+        apply_setting(root, setting);
+    }
+    const std::string no_file;
+    try {
+        MachineDescription changed = MachineReader(no_file).machine(root);
+        changed.file = file;
+        changed.axis_line = machine.axis_line;
+        return changed;
+    } catch (const InputError& error) {
+        throw UsageError(fmt::format("--set {}: {}", fmt::join(settings, " --set "), error.what()));
+    }
+}
+
+MachineDescription read_machine_file(const std::string& path, const std::vector<std::string>& settings) {
+    constexpr std::size_t largest = std::size_t{1} << 20;
+    return parse_machine(read_text_file(path, largest), path, settings);
+}
+
+MachineDescription default_machine(const std::vector<std::string>& settings) {
+    MachineDescription machine = parse_machine(default_text, {}, settings);
+    machine.axis_line = {};
     return machine;
 }
 

@@ -170,6 +170,13 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
     return out;
 }
 
+/// For those who named no machine and have one.
+void note_machine(const RunArguments& arguments, const MachineDescription& machine) {
+    if (const std::string note = note_of(machine_of(arguments), machine); !note.empty() && !arguments.motion.quiet) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
+}
+
 /// For those who think that the machine of their file moves.
 void note_simulation(const RunArguments& arguments, const MachineDescription& machine) {
     if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
@@ -179,6 +186,10 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
 }
 
 } // namespace
+
+MachineChoice machine_of(const RunArguments& arguments) {
+    return {arguments.machine, arguments.settings, arguments.path.input};
+}
 
 ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
                          const std::string& stopped) {
@@ -197,7 +208,8 @@ int run(const RunArguments& arguments) {
     }
     const auto begun = std::chrono::steady_clock::now();
     RunMachine of = arguments.described ? RunMachine(*arguments.described, arguments.path.format->is_gcode())
-                                        : RunMachine(arguments.machine, *arguments.path.format);
+                                        : RunMachine(machine_of(arguments), *arguments.path.format);
+    note_machine(arguments, of.machine);
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());

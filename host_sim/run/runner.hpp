@@ -2,6 +2,7 @@
 // runner: input -> curve -> trajectory -> machine, and the outputs.
 #pragma once
 
+#include "host_sim/config/machine_choice.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/program/path_input.hpp"
@@ -26,7 +27,8 @@ struct RunResult {
 struct RunArguments {
     PathArguments path;
     MotionArguments motion;
-    std::string machine;                           ///< empty: the default machine
+    std::string machine;                           ///< empty: not named; MachineChoice
+    std::vector<std::string> settings{};           ///< of --set
     std::optional<MachineDescription> described{}; ///< in the place of `machine`
     std::string target = "sim";                    ///< "sim": only the simulated machine; or "modbus", or an address
     std::string state;                             ///< file of offsets and position; empty: none
@@ -45,6 +47,8 @@ struct RunArguments {
 /// A file is checked completely, limits included, before anything moves. A pipe moves the machine while it is read, in
 /// constant memory: an error after the first move ends the run with a controlled stop.
 [[nodiscard]] int run(const RunArguments& arguments);
+
+[[nodiscard]] MachineChoice machine_of(const RunArguments& arguments);
 
 /// What the page of a run or of a check says beside the motion. The summary must outlive it.
 /// @param stopped  ReportFacts::stopped
