@@ -168,7 +168,8 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                            : SummaryKind::text;
 }
 
-constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
+constexpr std::array<std::string_view, 8> commands{"run",     "plan",  "check", "curve",
+                                                   "surface", "drive", "link",  "machine"};
 
 // What stands in the place of a command, or before it. @param command  the one that is meant
 [[noreturn]] void refuse_without_command(const std::vector<std::string>& words, std::string_view command) {
@@ -267,6 +268,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (job.run.path.input.empty()) {
         throw UsageError(
             fmt::format("the input has no name; give a {} file, or - for standard input", input_formats(" or ", ".")));
+    }
+    if (command.get_name() == "machine") {
+        job.command = Command::machine;
+        return job;
     }
     if (command.get_name() == "surface") {
         job.command = Command::surface;

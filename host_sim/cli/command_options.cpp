@@ -265,6 +265,17 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
                     exit_statuses);
 }
 
+void add_machine_check(CLI::App& app, Job& job) {
+    CLI::App* const machine = app.add_subcommand("machine", "Say what is wrong with a machine file");
+    machine->add_option("FILE", job.run.path.input, "a machine file (.toml); - reads standard input")->required();
+    machine
+        ->add_flag_callback(
+            "--check", [] {}, "say everything that is wrong, not only the first (the default)")
+        ->disable_flag_override();
+    machine->footer("Example: splinefeed machine --check three_axis.toml\n"
+                    "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
+}
+
 } // namespace
 
 const char* const exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
@@ -287,6 +298,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_check(app, job, typed);
     add_curve(app, job, typed);
     add_surface(app, job, typed);
+    add_machine_check(app, job);
     CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);
     drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"

@@ -48,37 +48,18 @@ std::vector<std::string_view> path_keys() {
     return keys;
 }
 
-constexpr std::string_view default_text = R"(name = "default machine"
-[path]
-max_feed_mm_s = 100
-[[axis]]
-name = "x"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-[[axis]]
-name = "y"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-[[axis]]
-name = "z"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-)";
-
 constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 
 /// Reads one file.
 class MachineReader {
 public:
-    explicit MachineReader(const std::string& file)
+    /// @param problems  gets what is wrong, and the reading goes on; null: the first problem ends it
+    explicit MachineReader(const std::string& file, std::vector<std::string>* problems = nullptr)
         : file_(file), path_keys_(path_keys()),
           step_keys_(keys_with(step_times, {"engine", "tick_us", "step_on_edge"})),
           axis_keys_(keys_with(axis_numbers, {"name", "kind", "travel_mm", "invert", "motors", "invert_step",
                                               "invert_direction", "drive", "standstill_window_mm"})),
-          check_(file, "docs/reference/files.md") {
+          check_(file, "docs/reference/files.md", problems) {
         check_.name_table({"[[axis]]", axis_keys_});
         check_.name_table({"[path]", path_keys_});
         check_.name_table({"[step]", step_keys_});
@@ -88,23 +69,21 @@ public:
         check_.require_known(root, machine_keys, "the machine file");
         MachineDescription machine;
         machine.file = file_;
-        if (const toml::node* node = root.get("name")) {
-            machine.name = check_.text(*node, "name");
-        }
-        check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
-                    machine.settings.sample_period_us);
-        if (const toml::node* node = root.get("drives_at_end")) {
-            const std::string end = check_.text(*node, "drives_at_end");
-            if (end != "on" && end != "off") {
-                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+        check_.attempt([&] {
+            if (const toml::node* node = root.get("name")) {
+                machine.name = check_.text(*node, "name");
             }
-            machine.drives_on_at_end = end == "on";
-        }
-        path(root, machine.settings, machine.tolerances);
-        step(root, machine.step);
-        machine.spindle = read_spindle(check_, root);
-        machine.lines = read_program_lines(check_, root, machine.spindle);
-        axes(root, machine);
+        });
+        check_.attempt([&] {
+            check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
+                        machine.settings.sample_period_us);
+        });
+        check_.attempt([&] { drives_at_end(root, machine.drives_on_at_end); });
+        check_.attempt([&] { path(root, machine.settings, machine.tolerances); });
+        check_.attempt([&] { step(root, machine.step); });
+        check_.attempt([&] { machine.spindle = read_spindle(check_, root); });
+        check_.attempt([&] { machine.lines = read_program_lines(check_, root, machine.spindle); });
+        check_.attempt([&] { axes(root, machine); });
         machine.tolerances.sharpest = sharpest_corner(machine.settings);
         machine.tolerances.jerk_limited = axis_totals(machine.settings).smoothest > 0.0;
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
@@ -123,17 +102,29 @@ private:
         return value;
     }
 
+    void drives_at_end(const toml::table& root, std::optional<bool>& on) const {
+        if (const toml::node* node = root.get("drives_at_end")) {
+            const std::string end = check_.text(*node, "drives_at_end");
+            if (end != "on" && end != "off") {
+                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+            }
+            on = end == "on";
+        }
+    }
+
     /// Reads what a table has of these numbers. @param where  the table, for messages
     template <class Settings, std::size_t n>
     void numbers(const toml::table& table, std::string_view where, const MachineNumber<Settings> (&rows)[n],
                  Settings& out) const {
         for (const MachineNumber<Settings>& row : rows) {
-            if (const toml::node* node = table.get(row.key)) {
-                out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
-            } else if (row.without == WithoutKey::refused) {
-                check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
-                                               row.low, row.high, row.unit));
-            }
+            check_.attempt([&] {
+                if (const toml::node* node = table.get(row.key)) {
+                    out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
+                } else if (row.without == WithoutKey::refused) {
+                    check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
+                                                   row.low, row.high, row.unit));
+                }
+            });
         }
     }
 
@@ -146,9 +137,11 @@ private:
         check_.require_known(table, path_keys_, "[path]");
         numbers(table, "[path]", path_numbers, settings);
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
-            if (const toml::node* given = table.get(tolerance.key)) {
-                tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
-            }
+            check_.attempt([&] {
+                if (const toml::node* given = table.get(tolerance.key)) {
+                    tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
+                }
+            });
         }
     }
 
@@ -176,9 +169,11 @@ private:
             }
         }
         for (const StepTime& time : step_times) {
-            if (const toml::node* given = table.get(time.key)) {
-                settings.*time.value = number(*given, time.key, {time.least_us, longest_step_time_us, "us"});
-            }
+            check_.attempt([&] {
+                if (const toml::node* given = table.get(time.key)) {
+                    settings.*time.value = number(*given, time.key, {time.least_us, longest_step_time_us, "us"});
+                }
+            });
         }
         if (const toml::node* on_edge = table.get("step_on_edge")) {
             settings.step_on_edge = check_.flag(*on_edge, "step_on_edge");
@@ -236,7 +231,7 @@ private:
             if (table == nullptr) {
                 check_.fail((*array)[k], "axis must be one to six tables, each with [[axis]] above it");
             }
-            axis(*table, k, machine);
+            check_.attempt([&] { axis(*table, k, machine); });
         }
     }
 
@@ -262,29 +257,41 @@ private:
         machine.axis_name[k] = letter;
         machine.axis_line[k] = table.source().begin.line;
         AxisSettings& axis = machine.settings.axis[k];
-        if (const toml::node* kind = table.get("kind")) {
-            axis.rotary = is_rotary(*kind);
-        }
+        check_.attempt([&] {
+            if (const toml::node* kind = table.get("kind")) {
+                axis.rotary = is_rotary(*kind);
+            }
+        });
         numbers(table, where, axis_numbers, axis);
-        if (const toml::node* window = table.get("standstill_window_mm")) {
-            machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
-        }
-        if (const toml::node* node = table.get("travel_mm")) {
-            machine.travel[k] = travel(*node, axis.steps_per_mm);
-        }
-        travel_end(table, where, machine.travel[k], axis);
-        motors(table, machine.motors[k]);
-        if (const toml::node* invert = table.get("invert")) {
-            machine.inverted[k] = check_.flag(*invert, "invert");
-        }
+        check_.attempt([&] {
+            if (const toml::node* window = table.get("standstill_window_mm")) {
+                machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
+            }
+        });
+        check_.attempt([&] {
+            if (const toml::node* node = table.get("travel_mm")) {
+                machine.travel[k] = travel(*node, axis.steps_per_mm);
+            }
+            travel_end(table, where, machine.travel[k], axis);
+        });
+        check_.attempt([&] { motors(table, machine.motors[k]); });
+        check_.attempt([&] {
+            if (const toml::node* invert = table.get("invert")) {
+                machine.inverted[k] = check_.flag(*invert, "invert");
+            }
+        });
         for (bool& direction : machine.motors[k].invert_direction) {
             direction = direction != machine.inverted[k];
         }
+        check_.attempt([&] { drive(table, machine.drive[k], machine.axis_line[k]); });
+    }
+
+    void drive(const toml::table& table, std::string& address, std::uint64_t& line) const {
         if (const toml::node* drive = table.get("drive")) {
-            machine.drive[k] = check_.text(*drive, "drive");
-            machine.axis_line[k] = drive->source().begin.line;
+            address = check_.text(*drive, "drive");
+            line = drive->source().begin.line;
             try {
-                static_cast<void>(parse_drive_address(machine.drive[k]));
+                static_cast<void>(parse_drive_address(address));
             } catch (const AddressError& error) {
                 check_.fail(*drive, fmt::format("drive: {}", error.what()));
             }
@@ -350,14 +357,6 @@ private:
 
 } // namespace
 
-double standstill_window_counts(const MachineDescription& machine, unsigned axis) noexcept {
-    constexpr double default_mm = 0.01;
-    constexpr double default_counts = 2.0;
-    const double steps_per_mm = machine.settings.axis[axis].steps_per_mm;
-    const std::optional<double>& window_mm = machine.standstill_window_mm[axis];
-    return window_mm ? std::fmax(*window_mm * steps_per_mm, 1.0) : std::fmax(default_mm * steps_per_mm, default_counts);
-}
-
 MachineDescription parse_machine(std::string_view text, const std::string& file,
                                  const std::vector<std::string>& settings) {
     toml::table root = parse_toml(text, file);
@@ -379,15 +378,18 @@ MachineDescription parse_machine(std::string_view text, const std::string& file,
     }
 }
 
-MachineDescription read_machine_file(const std::string& path, const std::vector<std::string>& settings) {
-    constexpr std::size_t largest = std::size_t{1} << 20;
-    return parse_machine(read_text_file(path, largest), path, settings);
+std::vector<std::string> machine_problems(std::string_view text, const std::string& file) {
+    std::vector<std::string> problems;
+    try {
+        static_cast<void>(MachineReader(file, &problems).machine(parse_toml(text, file)));
+    } catch (const InputError& error) { // no TOML
+        problems.emplace_back(error.what());
+    }
+    return problems;
 }
 
-MachineDescription default_machine(const std::vector<std::string>& settings) {
-    MachineDescription machine = parse_machine(default_text, {}, settings);
-    machine.axis_line = {};
-    return machine;
+MachineDescription read_machine_file(const std::string& path, const std::vector<std::string>& settings) {
+    return parse_machine(read_text_file(path, largest_machine_file), path, settings);
 }
 
 } // namespace splinefeed::host
