@@ -86,7 +86,7 @@ TEST_CASE("a table is refused with the row, from 1") {
     wrong = table();
     wrong.tolerance_mm[1] = -1.0;
     CHECK(refused(wrong, xy) == "table:2: tolerance '-1' is out of range; it must lie between 0 and 100 mm");
-    wrong.position_mm[3] = INFINITY;
+    wrong.position_mm[3] = HUGE_VAL;
     CHECK(refused(wrong, xy) == "table:2: y 'inf' is out of range; a position must lie within +-1048576 mm");
     wrong = {.columns = 2};
     CHECK(refused(wrong, xy) == "table: there is no waypoint; a path needs two");
