@@ -5,6 +5,7 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/option_word.hpp"
 #include "host_sim/cli/command_options.hpp"
+#include "host_sim/cli/help_pages.hpp"
 #include "host_sim/ports/target_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -234,6 +235,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
     app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
+    std::string page;
+    app.add_option("--man", page, "COMMAND or splinefeed: print its man page");
+    bool completion = false;
+    app.add_flag("--completion", completion, "print the completion of bash: source <(splinefeed --completion)")
+        ->disable_flag_override();
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses +
                " check: 1 the program has problems.");
     app.require_subcommand(0, 1);
@@ -248,6 +254,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         return Answer{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
         throw UsageError(explained(error));
+    }
+    if (!page.empty() || completion) {
+        return Answer{completion ? bash_completion(app) : man_page(app, page)};
     }
     const auto chosen = app.get_subcommands();
     if (const std::vector<std::string> words = app.remaining(); chosen.empty() || !words.empty()) {
