@@ -3,7 +3,8 @@
 """Makes every picture of the docs from data: make.py BUILD_DIRECTORY, or compares them with what is there: make.py --check BUILD_DIRECTORY.
 
 What late.svg shows was measured on a clock: late.json has the measurement. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
-chromium, whose fonts differ from machine to machine: it is made, and not compared."""
+chromium, those of examples/python by matplotlib. Their fonts differ from machine to machine: they are made, and not compared."""
+import os
 import pathlib
 import re
 import subprocess
@@ -48,6 +49,9 @@ def main():
             stale.append(f"docs/pictures/{name} is not what is drawn today; docs/pictures/make.py {sys.argv[-1]} makes it anew")
     if not check:
         subprocess.run([HERE / "report.mjs", build], check=False)
+        for example in sorted((ROOT / "examples/python").glob("*.py")):
+            subprocess.run([sys.executable, example, HERE / f"{example.stem}.png"], check=False,
+                           env=dict(os.environ, PYTHONPATH=str(build / "python"), MPLBACKEND="Agg"))
     stale += [f"docs/pictures/{file.name}: nothing makes it" for file in HERE.glob("*.svg") if file.name not in names]
     print("\n".join(stale) or f"{len(names)} pictures: {'as drawn today' if check else 'made'}")
     return 1 if stale else 0

@@ -12,22 +12,23 @@
 
 namespace splinefeed::host {
 
-std::string read_text_file(const std::string& path, std::size_t largest) {
-    InputStream input(path, path);
+std::string read_text_file(const std::string& path, std::size_t largest, const std::string& name) {
+    const std::string& shown = name.empty() ? path : name;
+    InputStream input(path, shown);
     std::string text;
     std::array<char, 65536> block{};
     try {
         for (std::streamsize count = 0; (count = input.sgetn(block.data(), block.size())) > 0;) {
             text.append(block.data(), static_cast<std::size_t>(count));
             if (text.size() > largest) {
-                throw InputError(path, 0,
+                throw InputError(shown, 0,
                                  fmt::format("is larger than the {} bytes that such a file may have", largest));
             }
         }
     } catch (const std::ios_base::failure&) {
-        throw InputError(path, 0, "cannot be read; it must be a file or a pipe");
+        throw InputError(shown, 0, "cannot be read; it must be a file or a pipe");
     }
-    return std::string(plain_text(text, path));
+    return std::string(plain_text(text, shown));
 }
 
 bool is_regular_file(const std::string& path) {

@@ -16,9 +16,13 @@ void TomlChecker::require_known(const toml::table& table, std::span<const std::s
                                 std::string_view where) const {
     for (const auto& [key, value] : table) {
         const std::string_view name = key.str();
+        const std::uint64_t line = key.source().begin.line;
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw InputError(file_, key.source().begin.line,
-                             fmt::format("unknown key {} in {}{}", in_quotes(name), where, in_place_of(name, known)));
+            attempt([&] {
+                throw InputError(
+                    file_, line,
+                    fmt::format("unknown key {} in {}{}", in_quotes(name), where, in_place_of(name, known)));
+            });
         }
     }
 }

@@ -32,7 +32,22 @@ struct NumberRange {
 class TomlChecker {
 public:
     /// @param page  of the docs, with all keys: for tables that have many
-    explicit TomlChecker(const std::string& file, std::string_view page) : file_(file), page_(page) {}
+    /// @param problems  gets what attempt() finds wrong; null: the first problem is thrown
+    explicit TomlChecker(const std::string& file, std::string_view page, std::vector<std::string>* problems = nullptr)
+        : file_(file), page_(page), problems_(problems) {}
+
+    /// Reads a part that does not depend on others. Where problems are collected, those of other parts are found, too.
+    template <class Read>
+    void attempt(Read&& read) const {
+        try {
+            read();
+        } catch (const InputError& error) {
+            if (problems_ == nullptr) {
+                throw;
+            }
+            problems_->emplace_back(error.what());
+        }
+    }
 
     /// Keys of a table that a user may write into another one by mistake.
     struct KnownTable {
@@ -92,6 +107,7 @@ private:
 
     const std::string& file_;
     std::string_view page_;
+    std::vector<std::string>* problems_;
     std::vector<KnownTable> elsewhere_;
 };
 

@@ -3,8 +3,9 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
-#include "host_sim/base/number_text.hpp"
+#include "host_sim/base/option_word.hpp"
 #include "host_sim/cli/command_options.hpp"
+#include "host_sim/cli/help_pages.hpp"
 #include "host_sim/ports/target_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,17 +22,6 @@ namespace {
 #ifndef SPLINEFEED_VERSION
 #define SPLINEFEED_VERSION "unknown"
 #endif
-
-std::string joined(std::initializer_list<std::string_view> names) {
-    return listed({names.begin(), names.size()});
-}
-
-[[noreturn]] void refuse_value(std::string_view option, std::string_view value,
-                               std::initializer_list<std::string_view> known) {
-    const std::string_view near = nearest_name(value, {known.begin(), known.size()});
-    throw UsageError(fmt::format("{} {}: it must be one of {}{}", option, in_quotes(value), joined(known),
-                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-}
 
 /// The options of an app by their long names, as they are typed.
 std::vector<std::string> option_names(const CLI::App& app) {
@@ -117,25 +107,17 @@ void take_format(Job& job, const std::string& format) {
     }
 }
 
-ScalarKind scalar_kind(std::string_view option, std::string_view given, std::initializer_list<std::string_view> known) {
-    if (std::find(known.begin(), known.end(), given) == known.end()) {
-        refuse_value(option, given, known);
-    }
-    return given == "fixed" ? ScalarKind::fixed : given == "float" ? ScalarKind::float32 : ScalarKind::float64;
-}
-
 void take_start(Job& job, const std::optional<std::string>& start) {
     if (!start) {
         return;
     }
+    require_word("--start", *start, {"check", "move", "here"});
     if (*start == "check") {
         job.run.options.start = StartWay::check;
     } else if (*start == "move") {
         job.run.options.start = StartWay::move;
-    } else if (*start == "here") {
-        job.run.options.start = StartWay::here;
     } else {
-        refuse_value("--start", *start, {"check", "move", "here"});
+        job.run.options.start = StartWay::here;
     }
     if (job.run.target == "sim") {
         throw UsageError("--start is for machines that stand somewhere, and the simulated one stands where its program "
@@ -145,14 +127,6 @@ void take_start(Job& job, const std::optional<std::string>& start) {
         throw UsageError("--start here and --home contradict each other: behind --home the machine goes to where its "
                          "program begins; leave one of them out");
     }
-}
-
-void take_window(Job& job, const std::string& text) {
-    const auto cells = read_whole<std::size_t>(text, 10, 1000000);
-    if (!cells) {
-        throw UsageError(fmt::format("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text)));
-    }
-    job.run.motion.planner.window_cells = *cells;
 }
 
 // One output at most goes to standard output, and no two to one file.
@@ -183,8 +157,8 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
     if (app.get_name() == "check" && on_stdout != nullptr) {
         throw UsageError("--report -: check prints on standard output itself; write the page to a file");
     }
-    if (!summary.empty() && summary != "text" && summary != "json") {
-        refuse_value("--summary", summary, {"text", "json"});
+    if (!summary.empty()) {
+        require_word("--summary", summary, {"text", "json"});
     }
     if (!summary.empty() && on_stdout != nullptr) {
         throw UsageError(fmt::format("{} - and --summary both go to standard output; write one to a file", on_stdout));
@@ -195,7 +169,8 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                            : SummaryKind::text;
 }
 
-constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
+constexpr std::array<std::string_view, 8> commands{"run",     "plan",  "check", "curve",
+                                                   "surface", "drive", "link",  "machine"};
 
 // What stands in the place of a command, or before it. @param command  the one that is meant
 [[noreturn]] void refuse_without_command(const std::vector<std::string>& words, std::string_view command) {
@@ -218,10 +193,6 @@ constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curv
 
 // What run, plan, check and curve have in common.
 void take_path(Job& job, const CLI::App& command, const Typed& typed) {
-    job.run.machine = typed.machine.value_or("");
-    if (typed.machine && job.run.machine.empty()) {
-        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
-    }
     job.command = command.get_name() == "run"     ? Command::run
                   : command.get_name() == "plan"  ? Command::plan
                   : command.get_name() == "check" ? Command::check
@@ -243,10 +214,10 @@ void take_path(Job& job, const CLI::App& command, const Typed& typed) {
     take_start(job, typed.start);
     take_format(job, typed.format);
     job.run.path.scalar =
-        scalar_kind("--scalar", typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"),
+        read_scalar("--scalar", typed.scalar.value_or(job.command == Command::check ? "double" : "fixed"),
                     {"fixed", "float", "double"});
-    job.run.motion.planner.jerk_scalar = scalar_kind("--jerk-scalar", typed.jerk_scalar, {"double", "float"});
-    take_window(job, typed.window);
+    job.run.motion.planner.jerk_scalar = read_scalar("--jerk-scalar", typed.jerk_scalar, {"double", "float"});
+    job.run.motion.planner.window_cells = read_window(typed.window);
     take_outputs(job, command, typed.json ? "json" : typed.summary);
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
@@ -264,6 +235,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
     app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
+    std::string page;
+    app.add_option("--man", page, "COMMAND or splinefeed: print its man page");
+    bool completion = false;
+    app.add_flag("--completion", completion, "print the completion of bash: source <(splinefeed --completion)")
+        ->disable_flag_override();
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses +
                " check: 1 the program has problems.");
     app.require_subcommand(0, 1);
@@ -279,6 +255,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     } catch (const CLI::ParseError& error) {
         throw UsageError(explained(error));
     }
+    if (!page.empty() || completion) {
+        return Answer{completion ? bash_completion(app) : man_page(app, page)};
+    }
     const auto chosen = app.get_subcommands();
     if (const std::vector<std::string> words = app.remaining(); chosen.empty() || !words.empty()) {
         refuse_without_command(words, chosen.empty() ? "run" : chosen.front()->get_name());
@@ -286,13 +265,22 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     const CLI::App& command = *chosen.front();
     refuse_short_names(command, {argv, static_cast<std::size_t>(argc)});
     refuse_extras(command, job);
+    job.run.machine = typed.machine.value_or("");
+    if (typed.machine && job.run.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
     if (takes_no_input(command)) {
         job.command = command.get_name() == "drive" ? Command::drive : Command::link;
+        job.link.machine = job.run.machine;
         return job;
     }
     if (job.run.path.input.empty()) {
         throw UsageError(
             fmt::format("the input has no name; give a {} file, or - for standard input", input_formats(" or ", ".")));
+    }
+    if (command.get_name() == "machine") {
+        job.command = Command::machine;
+        return job;
     }
     if (command.get_name() == "surface") {
         job.command = Command::surface;
@@ -300,7 +288,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         if (!typed.format.empty() && typed.format != "json") {
             throw UsageError(fmt::format("--format {}: a surface is described in json", in_quotes(typed.format)));
         }
-        job.run.path.scalar = scalar_kind("--scalar", typed.scalar.value_or("double"), {"fixed", "float", "double"});
+        job.run.path.scalar = read_scalar("--scalar", typed.scalar.value_or("double"), {"fixed", "float", "double"});
         return job;
     }
     take_path(job, command, typed);

@@ -101,8 +101,18 @@ void add_gcode_options(CLI::App& app, Job& job) {
     app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1")->group(group)->disable_flag_override();
 }
 
+void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector<std::string>& settings) {
+    app.add_option("-m,--machine", machine,
+                   "machine file (.toml); without it machine.toml beside FILE, else ~/.config/splinefeed/machine.toml, "
+                   "else default: three axes, 100 mm/s, 1000 mm/s^2");
+    app.add_option("--set", settings,
+                   "KEY=VALUE in the place of what the machine file states: path.max_feed_mm_s=200, "
+                   "axis.x.max_jerk_mm_s3=30000; may be repeated")
+        ->allow_extra_args(false);
+}
+
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
-    app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    add_machine(app, typed.machine, job.run.settings);
     if (executes) {
         app.add_option("--target", job.run.target,
                        "sim: the simulated machine in this process (default); " + target_help());
@@ -207,10 +217,9 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
         ->group(outputs);
 }
 
-void add_link_options(CLI::App& app, LinkArguments& arguments) {
+void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
     app.add_option("--target", arguments.target, target_help());
-    app.add_option("-m,--machine", arguments.machine,
-                   "machine file (.toml), for modbus and gpio:// (default: three axes)");
+    add_machine(app, typed.machine, arguments.settings);
     app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
 }
 
@@ -220,8 +229,7 @@ void add_check(CLI::App& app, Job& job, Typed& typed) {
     add_input(*check, job, typed);
     check->get_option("FILE")->description("a program in G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g)");
     check->get_option("--format")->description("gcode: format of the input, whatever its name is");
-    check->add_option("-m,--machine", typed.machine,
-                      "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    add_machine(*check, typed.machine, job.run.settings);
     check->add_option("--tolerance", job.run.path.curve.tolerance,
                       "MM: of G64 without P, and of a program without G64, 0 to 100 (default: the machine file's)");
     add_gcode_options(*check, job);
@@ -257,6 +265,17 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
                     exit_statuses);
 }
 
+void add_machine_check(CLI::App& app, Job& job) {
+    CLI::App* const machine = app.add_subcommand("machine", "Say what is wrong with a machine file");
+    machine->add_option("FILE", job.run.path.input, "a machine file (.toml); - reads standard input")->required();
+    machine
+        ->add_flag_callback(
+            "--check", [] {}, "say everything that is wrong, not only the first (the default)")
+        ->disable_flag_override();
+    machine->footer("Example: splinefeed machine --check three_axis.toml\n"
+                    "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
+}
+
 } // namespace
 
 const char* const exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
@@ -279,13 +298,14 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_check(app, job, typed);
     add_curve(app, job, typed);
     add_surface(app, job, typed);
+    add_machine_check(app, job);
     CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);
     drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
                   "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and "
                   "exits with 0.");
     CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how reliably");
-    add_link_options(*link, job.link);
+    add_link_options(*link, job.link, typed);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
     for (CLI::App* const command : app.get_subcommands([](CLI::App* /*command*/) { return true; })) {

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "host_sim/cli/link_command.hpp"
+#include "host_sim/cli/machine_command.hpp"
 #include "host_sim/drive/drive_command.hpp"
 #include "host_sim/run/runner.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, check, curve, surface, drive, link };
+enum class Command { run, plan, check, curve, surface, drive, link, machine };
 
 struct Job {
     Command command = Command::run;

@@ -4,7 +4,8 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/standard_output.hpp"
-#include "host_sim/config/machine_file.hpp"
+#include "host_sim/base/standard_streams.hpp"
+#include "host_sim/config/machine_choice.hpp"
 #include "host_sim/ports/target_table.hpp"
 
 #include <fmt/format.h>
@@ -32,8 +33,12 @@ int report_link(const LinkArguments& arguments) {
     }
     const TargetKind& kind = target_kind(arguments.target);
     const double seconds = measuring_time(arguments.seconds);
-    const bool any_machine = arguments.machine.empty();
-    const MachineDescription machine = any_machine ? default_machine() : read_machine_file(arguments.machine);
+    const MachineChoice choice{arguments.machine, arguments.settings};
+    const MachineDescription machine = choose_machine(choice);
+    const bool any_machine = machine.file.empty();
+    if (const std::string note = note_of(choice, machine); !note.empty()) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
     const LinkReport report = kind.report(arguments.target, machine, any_machine, seconds);
     print_whole(report.text, "the report");
     if (!report.trouble.empty()) {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace splinefeed::host {
 
 struct LinkArguments {
-    std::string target;  ///< empty: not given
-    std::string machine; ///< empty: the default machine
+    std::string target;                  ///< empty: not given
+    std::string machine;                 ///< empty: not named; MachineChoice
+    std::vector<std::string> settings{}; ///< of --set
     std::string seconds = "3";
 };
 

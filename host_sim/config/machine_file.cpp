@@ -8,6 +8,7 @@
 #include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/program_lines_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
+#include "host_sim/config/toml_setting.hpp"
 
 #include <array>
 #include <cmath>
@@ -52,12 +53,13 @@ constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 /// Reads one file.
 class MachineReader {
 public:
-    explicit MachineReader(const std::string& file)
+    /// @param problems  gets what is wrong, and the reading goes on; null: the first problem ends it
+    explicit MachineReader(const std::string& file, std::vector<std::string>* problems = nullptr)
         : file_(file), path_keys_(path_keys()),
           step_keys_(keys_with(step_times, {"engine", "tick_us", "step_on_edge"})),
           axis_keys_(keys_with(axis_numbers, {"name", "kind", "travel_mm", "invert", "motors", "invert_step",
                                               "invert_direction", "drive", "standstill_window_mm"})),
-          check_(file, "docs/reference/files.md") {
+          check_(file, "docs/reference/files.md", problems) {
         check_.name_table({"[[axis]]", axis_keys_});
         check_.name_table({"[path]", path_keys_});
         check_.name_table({"[step]", step_keys_});
@@ -67,23 +69,21 @@ public:
         check_.require_known(root, machine_keys, "the machine file");
         MachineDescription machine;
         machine.file = file_;
-        if (const toml::node* node = root.get("name")) {
-            machine.name = check_.text(*node, "name");
-        }
-        check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
-                    machine.settings.sample_period_us);
-        if (const toml::node* node = root.get("drives_at_end")) {
-            const std::string end = check_.text(*node, "drives_at_end");
-            if (end != "on" && end != "off") {
-                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+        check_.attempt([&] {
+            if (const toml::node* node = root.get("name")) {
+                machine.name = check_.text(*node, "name");
             }
-            machine.drives_on_at_end = end == "on";
-        }
-        path(root, machine.settings, machine.tolerances);
-        step(root, machine.step);
-        machine.spindle = read_spindle(check_, root);
-        machine.lines = read_program_lines(check_, root, machine.spindle);
-        axes(root, machine);
+        });
+        check_.attempt([&] {
+            check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
+                        machine.settings.sample_period_us);
+        });
+        check_.attempt([&] { drives_at_end(root, machine.drives_on_at_end); });
+        check_.attempt([&] { path(root, machine.settings, machine.tolerances); });
+        check_.attempt([&] { step(root, machine.step); });
+        check_.attempt([&] { machine.spindle = read_spindle(check_, root); });
+        check_.attempt([&] { machine.lines = read_program_lines(check_, root, machine.spindle); });
+        check_.attempt([&] { axes(root, machine); });
         machine.tolerances.rules = path_rules(machine.settings, machine.tolerances.joint_mm);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
             machine.tolerances.rotary[k] = machine.settings.axis[k].rotary;
@@ -101,17 +101,29 @@ private:
         return value;
     }
 
+    void drives_at_end(const toml::table& root, std::optional<bool>& on) const {
+        if (const toml::node* node = root.get("drives_at_end")) {
+            const std::string end = check_.text(*node, "drives_at_end");
+            if (end != "on" && end != "off") {
+                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+            }
+            on = end == "on";
+        }
+    }
+
     /// Reads what a table has of these numbers. @param where  the table, for messages
     template <class Settings, std::size_t n>
     void numbers(const toml::table& table, std::string_view where, const MachineNumber<Settings> (&rows)[n],
                  Settings& out) const {
         for (const MachineNumber<Settings>& row : rows) {
-            if (const toml::node* node = table.get(row.key)) {
-                out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
-            } else if (row.without == WithoutKey::refused) {
-                check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
-                                               row.low, row.high, row.unit));
-            }
+            check_.attempt([&] {
+                if (const toml::node* node = table.get(row.key)) {
+                    out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
+                } else if (row.without == WithoutKey::refused) {
+                    check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
+                                                   row.low, row.high, row.unit));
+                }
+            });
         }
     }
 
@@ -124,9 +136,11 @@ private:
         check_.require_known(table, path_keys_, "[path]");
         numbers(table, "[path]", path_numbers, settings);
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
-            if (const toml::node* given = table.get(tolerance.key)) {
-                tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
-            }
+            check_.attempt([&] {
+                if (const toml::node* given = table.get(tolerance.key)) {
+                    tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
+                }
+            });
         }
     }
 
@@ -154,9 +168,11 @@ private:
             }
         }
         for (const StepTime& time : step_times) {
-            if (const toml::node* given = table.get(time.key)) {
-                settings.*time.value = number(*given, time.key, {time.least_us, longest_step_time_us, "us"});
-            }
+            check_.attempt([&] {
+                if (const toml::node* given = table.get(time.key)) {
+                    settings.*time.value = number(*given, time.key, {time.least_us, longest_step_time_us, "us"});
+                }
+            });
         }
         if (const toml::node* on_edge = table.get("step_on_edge")) {
             settings.step_on_edge = check_.flag(*on_edge, "step_on_edge");
@@ -214,7 +230,7 @@ private:
             if (table == nullptr) {
                 check_.fail((*array)[k], "axis must be one to six tables, each with [[axis]] above it");
             }
-            axis(*table, k, machine);
+            check_.attempt([&] { axis(*table, k, machine); });
         }
     }
 
@@ -240,29 +256,41 @@ private:
         machine.axis_name[k] = letter;
         machine.axis_line[k] = table.source().begin.line;
         AxisSettings& axis = machine.settings.axis[k];
-        if (const toml::node* kind = table.get("kind")) {
-            axis.rotary = is_rotary(*kind);
-        }
+        check_.attempt([&] {
+            if (const toml::node* kind = table.get("kind")) {
+                axis.rotary = is_rotary(*kind);
+            }
+        });
         numbers(table, where, axis_numbers, axis);
-        if (const toml::node* window = table.get("standstill_window_mm")) {
-            machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
-        }
-        if (const toml::node* node = table.get("travel_mm")) {
-            machine.travel[k] = travel(*node, axis.steps_per_mm);
-        }
-        travel_end(table, where, machine.travel[k], axis);
-        motors(table, machine.motors[k]);
-        if (const toml::node* invert = table.get("invert")) {
-            machine.inverted[k] = check_.flag(*invert, "invert");
-        }
+        check_.attempt([&] {
+            if (const toml::node* window = table.get("standstill_window_mm")) {
+                machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
+            }
+        });
+        check_.attempt([&] {
+            if (const toml::node* node = table.get("travel_mm")) {
+                machine.travel[k] = travel(*node, axis.steps_per_mm);
+            }
+            travel_end(table, where, machine.travel[k], axis);
+        });
+        check_.attempt([&] { motors(table, machine.motors[k]); });
+        check_.attempt([&] {
+            if (const toml::node* invert = table.get("invert")) {
+                machine.inverted[k] = check_.flag(*invert, "invert");
+            }
+        });
         for (bool& direction : machine.motors[k].invert_direction) {
             direction = direction != machine.inverted[k];
         }
+        check_.attempt([&] { drive(table, machine.drive[k], machine.axis_line[k]); });
+    }
+
+    void drive(const toml::table& table, std::string& address, std::uint64_t& line) const {
         if (const toml::node* drive = table.get("drive")) {
-            machine.drive[k] = check_.text(*drive, "drive");
-            machine.axis_line[k] = drive->source().begin.line;
+            address = check_.text(*drive, "drive");
+            line = drive->source().begin.line;
             try {
-                static_cast<void>(parse_drive_address(machine.drive[k]));
+                static_cast<void>(parse_drive_address(address));
             } catch (const AddressError& error) {
                 check_.fail(*drive, fmt::format("drive: {}", error.what()));
             }
@@ -328,32 +356,39 @@ private:
 
 } // namespace
 
-double standstill_window_counts(const MachineDescription& machine, unsigned axis) noexcept {
-    constexpr double default_mm = 0.01;
-    constexpr double default_counts = 2.0;
-    const double steps_per_mm = machine.settings.axis[axis].steps_per_mm;
-    const std::optional<double>& window_mm = machine.standstill_window_mm[axis];
-    return window_mm ? std::fmax(*window_mm * steps_per_mm, 1.0) : std::fmax(default_mm * steps_per_mm, default_counts);
-}
-
-MachineDescription parse_machine(std::string_view text, const std::string& file) {
-    return MachineReader(file).machine(parse_toml(text, file));
-}
-
-MachineDescription read_machine_file(const std::string& path) {
-    constexpr std::size_t largest = std::size_t{1} << 20;
-    return parse_machine(read_text_file(path, largest), path);
-}
-
-MachineDescription default_machine() {
-    MachineDescription machine;
-    machine.settings.axes = 3;
-    for (unsigned k = 0; k < 3; ++k) {
-        machine.settings.axis[k] = {
-            .max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .steps_per_mm = 320.0};
-        machine.axis_name[k] = std::string(axis_letters.substr(k, 1));
+MachineDescription parse_machine(std::string_view text, const std::string& file,
+                                 const std::vector<std::string>& settings) {
+    toml::table root = parse_toml(text, file);
+    MachineDescription machine = MachineReader(file).machine(root); // what is wrong without them has a line
+    if (settings.empty()) {
+        return machine;
     }
-    return machine;
+    for (const std::string& setting : settings) {
+        apply_setting(root, setting);
+    }
+    const std::string no_file;
+    try {
+        MachineDescription changed = MachineReader(no_file).machine(root);
+        changed.file = file;
+        changed.axis_line = machine.axis_line;
+        return changed;
+    } catch (const InputError& error) {
+        throw UsageError(fmt::format("--set {}: {}", fmt::join(settings, " --set "), error.what()));
+    }
+}
+
+std::vector<std::string> machine_problems(std::string_view text, const std::string& file) {
+    std::vector<std::string> problems;
+    try {
+        static_cast<void>(MachineReader(file, &problems).machine(parse_toml(text, file)));
+    } catch (const InputError& error) { // no TOML
+        problems.emplace_back(error.what());
+    }
+    return problems;
+}
+
+MachineDescription read_machine_file(const std::string& path, const std::vector<std::string>& settings) {
+    return parse_machine(read_text_file(path, largest_machine_file), path, settings);
 }
 
 } // namespace splinefeed::host

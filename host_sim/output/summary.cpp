@@ -127,12 +127,18 @@ void write_help(Lines out, const Summary& summary) {
         fmt::format_to(out, "{:<22}{:>14.6f} s  {:.1f} % less\n", "  " + all[i].limit, all[i].cycle_time_s,
                        100.0 * all[i].gain);
     }
+    if (const auto& setting = all.front().setting; !setting.empty()) {
+        fmt::format_to(out, "  to try the first: --set {}\n", setting);
+    }
 }
 
 Json help_json(const Summary& summary) {
     Json out = Json::array();
     for (const RaisedLimit& raised : summary.what_would_help->limits) {
-        out.push_back({{"limit", raised.limit}, {"cycle_time_s", raised.cycle_time_s}, {"gain", raised.gain}});
+        out.push_back({{"limit", raised.limit},
+                       {"set", raised.setting.empty() ? Json(nullptr) : Json(raised.setting)},
+                       {"cycle_time_s", raised.cycle_time_s},
+                       {"gain", raised.gain}});
     }
     return out;
 }

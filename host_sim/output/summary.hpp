@@ -37,6 +37,7 @@ struct ToleranceSummary {
 /// A limit that was raised by a tenth, alone.
 struct RaisedLimit {
     std::string limit;         ///< for people
+    std::string setting;       ///< of --set, to try it; empty: it is no number of the machine
     double cycle_time_s = 0.0; ///< then
     double gain = 0.0;         ///< part of the cycle time that is saved
 };

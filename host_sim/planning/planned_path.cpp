@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/planned_path.hpp"
 
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/number_text.hpp"
 #include "host_sim/planning/scalar_path.hpp"
 
 #include "splinefeed/number/path_position.hpp"
+
+#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -19,6 +23,7 @@ std::optional<std::uint64_t> look(PathInput& input, CurveWatch& watch) {
     int answers = 0;
     for (Pull pull = Pull::starved; pull != Pull::finished && answers <= most_answers;
          pull = watched.tee.next(segment)) {
+        Interruption::point();
         PathFeeder::Pushed ignored;
         if (pull == Pull::starved && feeder.awaits_answer()) {
             feeder.program()->answer(feeder.program()->expected_answer());
@@ -52,6 +57,14 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
     out.plan_bytes = planner_.bytes();
     out.stream_bytes = sizeof(SegmentStream<S>);
     return out;
+}
+
+std::size_t read_window(std::string_view text) {
+    const auto cells = read_whole<std::size_t>(text, 10, 1000000);
+    if (!cells) {
+        throw UsageError(fmt::format("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text)));
+    }
+    return *cells;
 }
 
 std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine, CurveWatch& watch,

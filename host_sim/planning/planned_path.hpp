@@ -15,6 +15,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 namespace splinefeed::host {
 
@@ -23,6 +24,9 @@ struct PlannerChoice {
     std::size_t window_cells = 1024;              ///< look-ahead of the feed plan
     ScalarKind jerk_scalar = ScalarKind::float64; ///< number type of a JerkPlanner; not fixed
 };
+
+/// The look-ahead of --window, 10 to 1000000 cells. Throws UsageError.
+[[nodiscard]] std::size_t read_window(std::string_view text);
 
 /// The only door between the scalar of a plan and what lies behind it: one virtual call a segment. Steering and answers
 /// are those of Trajectory.

@@ -2,6 +2,7 @@
 // ScalarPath: a PlannedPath in one scalar.
 #pragma once
 
+#include "host_sim/base/interruption.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/path_curve.hpp"
 #include "host_sim/planning/path_tee.hpp"
@@ -32,7 +33,10 @@ public:
     [[nodiscard]] Trajectory<S>& trajectory() noexcept { return planner_.trajectory(); }
 
     [[nodiscard]] PathFeeder& feeder() noexcept override { return *watched_.feeder; }
-    Pull next(FeedSegment& out, UnderrunPolicy underrun) override { return trajectory().next(out, underrun); }
+    Pull next(FeedSegment& out, UnderrunPolicy underrun) override {
+        Interruption::point();
+        return trajectory().next(out, underrun);
+    }
     [[nodiscard]] Pull state() const noexcept override { return planner_.trajectory().state(); }
     [[nodiscard]] Activity activity() const noexcept override { return planner_.trajectory().activity(); }
     [[nodiscard]] Status status() const noexcept override { return planner_.trajectory().status(); }

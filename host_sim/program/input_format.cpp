@@ -2,6 +2,7 @@
 #include "host_sim/program/input_format.hpp"
 
 #include "host_sim/base/input_stream.hpp"
+#include "host_sim/program/waypoint_reader.hpp"
 
 #include "splinefeed/s0_program/text_cursor.hpp"
 

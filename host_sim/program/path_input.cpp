@@ -30,9 +30,9 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
 } // namespace
 
 PathInput::PathInput(const PathArguments& arguments, PathUse use, const PathMachine& machine)
-    : name_(arguments.input), path_(arguments.input), tolerances_(machine.tolerances), format_(arguments.format),
-      machine_axes_(machine.axes), scalar_(arguments.scalar), read_ahead_(use == PathUse::followed),
-      content_(open(arguments, use, machine)) {}
+    : name_(arguments.name.empty() ? arguments.input : arguments.name), path_(arguments.input), given_(arguments.rows),
+      tolerances_(machine.tolerances), format_(arguments.format), machine_axes_(machine.axes),
+      scalar_(arguments.scalar), read_ahead_(use == PathUse::followed), content_(open(arguments, use, machine)) {}
 
 PathInput::Content PathInput::open(const PathArguments& arguments, PathUse use, const PathMachine& machine) {
     if (format_->is_curve()) {
@@ -47,13 +47,17 @@ PathInput::Content PathInput::open(const PathArguments& arguments, PathUse use, 
     return open_waypoints(arguments, use);
 }
 
+OpenedRows PathInput::open_rows() const {
+    return given_ ? given_->open(name_, machine_axes_) : format_->open(path_, name_, machine_axes_);
+}
+
 PathInput::Content PathInput::open_waypoints(const PathArguments& arguments, PathUse use) {
     choice_ = choose_curve(arguments.curve);
     if (path_ == "-" && is_regular_file("/dev/stdin")) {
         path_ = "/dev/stdin"; // it can be read twice
     }
-    repeatable_ = is_regular_file(path_);
-    OpenedRows opened = format_->open(path_, name_, machine_axes_);
+    repeatable_ = given_ ? given_->repeatable : is_regular_file(path_);
+    OpenedRows opened = open_rows();
     axes_ = std::move(opened.axes);
     const bool within_tolerance = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
     if (opened.has_tolerances && choice_.method != "polyline") {
@@ -113,7 +117,7 @@ PathInput::Content PathInput::open_description(const PathArguments& arguments, P
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
         throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
     }
-    const nlohmann::json document = parse_json(read_text_file(name_, largest_curve_file), name_);
+    const nlohmann::json document = parse_json(read_text_file(path_, largest_curve_file, name_), name_);
     if (has_elements(document)) {
         return open_elements(arguments, document);
     }
@@ -237,7 +241,7 @@ std::unique_ptr<SourceLines> PathInput::lines() {
 
 std::unique_ptr<WaypointRows> PathInput::rows() {
     auto& opened = std::get<Waypoints>(content_).opened;
-    std::unique_ptr<WaypointRows> rows = opened ? std::move(opened) : format_->open(path_, name_, machine_axes_).rows;
+    std::unique_ptr<WaypointRows> rows = opened ? std::move(opened) : open_rows().rows;
     return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
 }
 

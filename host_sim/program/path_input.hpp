@@ -13,6 +13,7 @@
 #include "host_sim/program/left_out_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +22,18 @@
 
 namespace splinefeed::host {
 
+/// Waypoints that are in no file.
+struct GivenRows {
+    /// As InputFormat::open().
+    std::function<OpenedRows(const std::string& name, const std::vector<std::string>& machine_axes)> open{};
+    bool repeatable = true; ///< open() may be called again
+};
+
 /// What a path is read from, and how its curve is made.
 struct PathArguments {
-    std::string input; ///< a path, or "-"
+    std::string input;               ///< a path, or "-"
+    std::string name{};              ///< for messages; empty: `input`
+    std::optional<GivenRows> rows{}; ///< in the place of `input`
     const InputFormat* format = input_format("csv");
     CurveArguments curve;
     GcodeArguments gcode;
@@ -105,6 +115,7 @@ private:
     };
     using Content = std::variant<Waypoints, CurveFile, ElementProgram, GcodeSettings>;
 
+    [[nodiscard]] OpenedRows open_rows() const;
     [[nodiscard]] Content open(const PathArguments& arguments, PathUse use, const PathMachine& machine);
     [[nodiscard]] Content open_waypoints(const PathArguments& arguments, PathUse use);
     [[nodiscard]] Content open_description(const PathArguments& arguments, PathUse use);
@@ -115,6 +126,7 @@ private:
 
     std::string name_;
     std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
+    std::optional<GivenRows> given_;
     CurveChoice choice_;
     PathTolerances tolerances_;
     const InputFormat* format_;

@@ -7,8 +7,6 @@
 #include "host_sim/base/plain_text.hpp"
 #include "host_sim/base/trimmed_text.hpp"
 
-#include "host_sim/config/path_tolerances.hpp"
-
 #include "splinefeed/s0_program/text_cursor.hpp"
 
 #include <algorithm>
@@ -20,9 +18,6 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::string_view axis_letters = "xyzabc";
-constexpr double longest_move_mm = 65536.0;
-constexpr double slowest_feed = 0.001;
-constexpr double fastest_feed = 10000.0;
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -50,6 +45,12 @@ std::size_t count_fields(std::string_view line) {
 
 void WaypointReader::fail(std::string_view text) const {
     throw InputError(file_, line_, text);
+}
+
+void WaypointReader::refuse(const std::string& text) const {
+    if (!text.empty()) {
+        fail(text);
+    }
 }
 
 WaypointReader::WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes,
@@ -315,25 +316,16 @@ void WaypointReader::parse_field(std::string_view field, int column, WaypointRow
                          why_no_number(result)));
     }
     if (column == tolerance_column) {
-        if (value < 0.0 || value > largest_tolerance_mm) {
-            fail(fmt::format("tolerance {} is out of range; it must lie between 0 and {} mm", in_quotes(field),
-                             largest_tolerance_mm));
-        }
+        refuse(tolerance_refusal(value, field));
         row.tolerance_mm = value;
         return;
     }
     if (is_feed) {
-        if (value < slowest_feed || value > fastest_feed) {
-            fail(fmt::format("{} {} is out of range; it must lie between {} and {} mm/s", column_name(column),
-                             in_quotes(field), slowest_feed, fastest_feed));
-        }
+        refuse(feed_refusal(column_name(column), value, field));
         (column == feed_column ? row.feed_mm_s : row.max_feed_mm_s) = value;
         return;
     }
-    if (!position_representable(value)) {
-        fail(fmt::format("{} {} is out of range; a position must lie within +-1048576 mm", column_name(column),
-                         in_quotes(field)));
-    }
+    refuse(position_refusal(column_name(column), value, field));
     row.position[static_cast<unsigned>(column)] = value;
 }
 
@@ -342,12 +334,8 @@ void WaypointReader::check_move(const WaypointRow& row) const {
         if (column < 0) {
             continue;
         }
-        const double from = last_.position[static_cast<unsigned>(column)];
-        const double to = row.position[static_cast<unsigned>(column)];
-        if (to - from > longest_move_mm || from - to > longest_move_mm) {
-            fail(fmt::format("{} moves from {} to {} mm; two successive waypoints must be at most {} mm apart",
-                             column_name(column), from, to, longest_move_mm));
-        }
+        const auto k = static_cast<unsigned>(column);
+        refuse(move_refusal(column_name(column), last_.position[k], row.position[k]));
     }
 }
 

@@ -2,27 +2,14 @@
 // WaypointReader: reads a waypoint file row by row, as the bytes arrive.
 #pragma once
 
-#include "splinefeed/s1_curve/waypoint.hpp"
+#include "host_sim/program/waypoint_row.hpp"
 
-#include <array>
-#include <cstdint>
 #include <istream>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace splinefeed::host {
-
-/// One row of a waypoint file, in mm and mm/s.
-struct WaypointRow {
-    PerAxis<double> position{}; ///< axes without a column are 0
-    double feed_mm_s = 0.0;     ///< 0: the machine's feed
-    double max_feed_mm_s = 0.0; ///< 0: no limit
-    Corner corner = Corner::automatic;
-    std::optional<double> tolerance_mm{}; ///< of the move that ends here
-    std::uint64_t line = 0;
-};
 
 /// Uses constant memory, and never waits for more than the end of the current line. Every method throws InputError.
 ///
@@ -68,6 +55,8 @@ private:
     [[nodiscard]] std::string column_name(int column) const;
     [[nodiscard]] int axis_index(std::string_view name) const;
     [[noreturn]] void fail(std::string_view text) const;
+    /// Unless the text is empty.
+    void refuse(const std::string& text) const;
 
     std::streambuf* source_;
     std::string file_;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/program/row_source.hpp"
-#include "host_sim/program/waypoint_reader.hpp"
+#include "host_sim/program/waypoint_row.hpp"
 
 namespace splinefeed::host {
 

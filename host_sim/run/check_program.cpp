@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/program_report_text.hpp"
 #include "host_sim/output/progress.hpp"
 #include "host_sim/planning/machine_limits.hpp"
@@ -99,7 +100,10 @@ void write_problems(const RunArguments& arguments, const MachineDescription& mac
 } // namespace
 
 int check_program(const RunArguments& arguments) {
-    const RunMachine of(arguments.machine, *arguments.path.format);
+    const RunMachine of(machine_of(arguments), *arguments.path.format);
+    if (const std::string note = note_of(machine_of(arguments), of.machine); !note.empty()) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
     const PlanFigures figures = plan_figures(arguments.path.scalar, of.machine);
     PathInput input(arguments.path, PathUse::executed, of.path());
     if (input.gcode() == nullptr) {

@@ -22,8 +22,8 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
     : quiet_(arguments.quiet), progress_alone_(arguments.progress), enforce_(arguments.enforce),
       measures_(arguments.measures), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
       state_(arguments.state), start_(arguments.start), report_(arguments.report), record_(arguments.record),
-      target_(target), deviation_(description.settings, input.tolerances().joint_mm,
-                                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
+      kept_(arguments.kept), target_(target), deviation_(description.settings, input.tolerances().joint_mm,
+                                                         input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
       share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),
@@ -350,6 +350,9 @@ bool Motion::execute(FeedSegment& segment) {
     share_.segment(segment);
     if (record_ != nullptr) {
         record_->segment(segment, share_);
+    }
+    if (kept_ != nullptr) {
+        kept_->add(segment, input_->gcode() != nullptr ? line_ : passed_, share_.binding_limit());
     }
     if (target_ != nullptr && !target_->submit(segment, line_, passed_)) {
         stopped_ = target_->ending();

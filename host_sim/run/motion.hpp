@@ -11,6 +11,7 @@
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/report/motion_record.hpp"
+#include "host_sim/run/kept_motion.hpp"
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
@@ -42,6 +43,7 @@ struct MotionArguments {
     const RunStart* start = nullptr; ///< of a machine that stands somewhere; null: it stands where the path begins
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
     MotionRecord* record = nullptr;  ///< gets what the machine does, for a page; null: there is none
+    KeptMotion* kept = nullptr;      ///< gets all segments; null: nobody keeps them
 };
 
 /// One run. A waypoint is read only when the planner has no segment left.
@@ -116,6 +118,7 @@ private:
     std::optional<StraightMotion> way_; // to where the path begins, while the machine is on it
     ProgramReport* report_;
     MotionRecord* record_;
+    KeptMotion* kept_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
     PathDeviation deviation_;

@@ -2,6 +2,7 @@
 #include "host_sim/run/program_look.hpp"
 
 #include "host_sim/analysis/move_extent.hpp"
+#include "host_sim/base/interruption.hpp"
 #include "host_sim/planning/move_sources.hpp"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ std::optional<std::uint64_t> look_at_moves(PathInput& input, const PathLimits& l
     double tolerance = 0.0; // the path leaves the box of its moves by no more
     std::uint64_t moves = 0;
     for (SourceStep step; program->next(step);) {
+        Interruption::point();
         if (program->awaits_answer()) {
             return std::nullopt;
         }

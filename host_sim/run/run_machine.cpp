@@ -3,7 +3,6 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
-#include "host_sim/config/machine_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +27,8 @@ double fastest_rapid_mm_s(const MachineSettings& machine) {
 
 } // namespace
 
-RunMachine::RunMachine(const std::string& file, const InputFormat& format)
-    : RunMachine(file.empty() ? default_machine() : read_machine_file(file), format.is_gcode()) {}
+RunMachine::RunMachine(const MachineChoice& choice, const InputFormat& format)
+    : RunMachine(choose_machine(choice), format.is_gcode()) {}
 
 RunMachine::RunMachine(MachineDescription stated, bool gcode)
     : machine(std::move(stated)), max_feed_mm_s(machine.settings.max_feed_mm_s),

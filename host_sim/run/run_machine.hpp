@@ -2,7 +2,7 @@
 // RunMachine: the machine of a run, as the planning of its input takes it.
 #pragma once
 
-#include "host_sim/config/machine_description.hpp"
+#include "host_sim/config/machine_choice.hpp"
 #include "host_sim/config/state_file.hpp"
 #include "host_sim/program/path_input.hpp"
 
@@ -14,9 +14,8 @@ namespace splinefeed::host {
 /// For a program in G-code the limit of the path is that of a rapid along the diagonal: rapids move at the limits of
 /// the axes. What moves with a feed may not exceed is then a limit of each move.
 struct RunMachine {
-    /// Reads the file. Throws InputError.
-    /// @param file  empty: the default machine
-    RunMachine(const std::string& file, const InputFormat& format);
+    /// As choose_machine(). Throws InputError and UsageError.
+    RunMachine(const MachineChoice& choice, const InputFormat& format);
     /// Of a machine as a file states it. @param gcode  the input is a program in G-code
     RunMachine(MachineDescription stated, bool gcode);
 

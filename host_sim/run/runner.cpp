@@ -29,6 +29,7 @@
 #include <optional>
 #include <span>
 #include <unistd.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -51,15 +52,25 @@ std::optional<std::uint64_t> look_before(PathInput& input, const PathLimits& lim
 }
 
 /// Input that is valid, but whose curve is hardly what was meant.
-void warn(const PathInput& input, bool quiet) {
-    if (!quiet && !input.dialect_choice().empty()) {
-        tell("{}: {}\n", printable(input.name()), printable(input.dialect_choice()));
+std::vector<std::string> warnings(const PathInput& input) {
+    std::vector<std::string> out;
+    if (!input.dialect_choice().empty()) {
+        out.push_back(fmt::format("{}: {}", printable(input.name()), printable(input.dialect_choice())));
     }
-    if (quiet || input.segments() == nullptr) {
-        return;
+    if (input.segments() != nullptr) {
+        for (const std::string& warning : input.segments()->warnings) {
+            out.push_back(fmt::format("{}: warning: {}", printable(input.name()), warning));
+        }
     }
-    for (const std::string& warning : input.segments()->warnings) {
-        tell("{}: warning: {}\n", printable(input.name()), warning);
+    return out;
+}
+
+void warn(const PathInput& input, bool quiet, RunResult* result) {
+    const std::vector<std::string> sentences = warnings(input);
+    if (result != nullptr) {
+        result->notes = sentences;
+    } else if (!quiet && !sentences.empty()) {
+        tell("{}\n", fmt::join(sentences, "\n"));
     }
 }
 
@@ -159,6 +170,13 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
     return out;
 }
 
+/// For those who named no machine and have one.
+void note_machine(const RunArguments& arguments, const MachineDescription& machine) {
+    if (const std::string note = note_of(machine_of(arguments), machine); !note.empty() && !arguments.motion.quiet) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
+}
+
 /// For those who think that the machine of their file moves.
 void note_simulation(const RunArguments& arguments, const MachineDescription& machine) {
     if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
@@ -168,6 +186,10 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
 }
 
 } // namespace
+
+MachineChoice machine_of(const RunArguments& arguments) {
+    return {arguments.machine, arguments.settings, arguments.path.input};
+}
 
 ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
                          const std::string& stopped) {
@@ -185,7 +207,9 @@ int run(const RunArguments& arguments) {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
     const auto begun = std::chrono::steady_clock::now();
-    RunMachine of(arguments.machine, *arguments.path.format);
+    RunMachine of = arguments.described ? RunMachine(*arguments.described, arguments.path.format->is_gcode())
+                                        : RunMachine(machine_of(arguments), *arguments.path.format);
+    note_machine(arguments, of.machine);
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
@@ -196,7 +220,7 @@ int run(const RunArguments& arguments) {
     if (!signals) {
         of.settle_places(motion_arguments.begins, arguments.state);
     }
-    warn(input, arguments.motion.quiet);
+    warn(input, arguments.motion.quiet, arguments.result);
     const PathLimits path_limits(machine);
     const std::optional<std::uint64_t> waypoints =
         look_before(input, path_limits, machine.settings.axes, signals.has_value());
@@ -226,7 +250,7 @@ int run(const RunArguments& arguments) {
     outputs.commit();
     Summary summary = motion.summary();
     if (arguments.helps && !signals && input.repeatable() && summary.optimum_time_s &&
-        (report || arguments.summary != SummaryKind::none)) {
+        (report || arguments.result != nullptr || arguments.summary != SummaryKind::none)) {
         summary.what_would_help = what_would_help({.path = &arguments.path,
                                                    .machine = &of,
                                                    .begins = &motion_arguments.begins,
@@ -245,16 +269,18 @@ int run(const RunArguments& arguments) {
     warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, arguments.summary);
     supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
-    if (stopped.empty()) {
-        return 0;
+    if (arguments.result != nullptr) {
+        arguments.result->summary = std::move(summary);
+        arguments.result->stopped = stopped;
+    } else if (!stopped.empty()) {
+        tell("splinefeed: {}\n", printable(stopped));
     }
-    tell("splinefeed: {}\n", printable(stopped));
-    return 1;
+    return stopped.empty() ? 0 : 1;
 }
 
 int draw(const RunArguments& arguments) {
     PathInput input(arguments.path, PathUse::drawn, {});
-    warn(input, arguments.motion.quiet);
+    warn(input, arguments.motion.quiet, nullptr);
     if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
         Outputs outputs(arguments.outputs, input.curve_name(), curve->closed);
         outputs.curve()->segments(*curve);

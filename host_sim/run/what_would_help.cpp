@@ -5,7 +5,10 @@
 #include "host_sim/output/progress.hpp"
 #include "host_sim/planning/planned_path.hpp"
 
+#include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
+
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -65,6 +68,22 @@ std::vector<Candidate> candidates(const MachineDescription& machine, const Summa
         add({LimitKind::chord}, &MachineSettings::chord_error_mm, nullptr);
     }
     return out;
+}
+
+/// The raised value as --set states it; empty: it is no number of the machine.
+std::string setting_of(const Candidate& candidate, const MachineDescription& machine) {
+    for (const auto& number : path_numbers) {
+        if (candidate.of_machine != nullptr && number.value == candidate.of_machine) {
+            return fmt::format("path.{}={:.6g}", number.key, machine.settings.*number.value);
+        }
+    }
+    for (const auto& number : axis_numbers) {
+        if (candidate.of_axis != nullptr && number.value == candidate.of_axis) {
+            return fmt::format("axis.{}.{}={:.6g}", machine.axis_name[candidate.limit.axis], number.key,
+                               machine.settings.axis[candidate.limit.axis].*number.value);
+        }
+    }
+    return {};
 }
 
 /// Nobody looks at a path that is only planned again.
@@ -129,11 +148,12 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
         if (!MotionLimits<double>::make(machine.settings).has_value()) {
             continue; // the limit is as high as a machine may state it
         }
+        const std::string setting = setting_of(candidate, machine);
         const RunMachine higher(std::move(machine), arguments.path->format->is_gcode());
         const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
         const double share = planned_s(arguments, higher, factor, out.moves) / part_s; // of the rest as of the part
         const double seconds = moving_s * share + arguments.standing_s;
-        out.limits.push_back({candidate.name, seconds, 1.0 - seconds / summary.cycle_time_s});
+        out.limits.push_back({candidate.name, setting, seconds, 1.0 - seconds / summary.cycle_time_s});
     }
     std::stable_sort(out.limits.begin(), out.limits.end(),
                      [](const auto& a, const auto& b) { return a.gain > b.gain; });

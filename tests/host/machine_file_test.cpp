@@ -157,6 +157,59 @@ TEST_CASE("Step and direction lines are read") {
     CHECK_FALSE(turned.motors[0].invert_direction[0]);
 }
 
+TEST_CASE("All problems of a machine file are found at once") {
+    const std::string text = R"(name = 3
+nmae = "x"
+sample_period_us = 1
+drives_at_end = "maybe"
+[path]
+max_feed_mm_s = -1
+chord_error_mm = "0.01"
+rapid_tolerance_mm = 1000
+[step]
+step_length_us = "2"
+[[axis]]
+name = "x"
+max_velocity_mm_s = 1e9
+max_jerk_mm_s3 = 0.1
+kind = "round"
+travel_mm = [5, 1]
+invert = 1
+drive = "nowhere"
+[[axis]]
+name = "x"
+[[axis]]
+name = "y"
+max_velocity_mm_s = 100
+motors = 3
+)";
+    const std::vector<std::string> expected{
+        "m:2: unknown key 'nmae' in the machine file; did you mean 'name'?",
+        "m:1: name must be a text in quotes",
+        "m:3: sample_period_us must be a whole number from 50 to 100000",
+        "m:4: drives_at_end is 'maybe'; it must be 'on' or 'off'",
+        "m:6: max_feed_mm_s is -1; it must lie between 0.001 and 10000 mm/s",
+        "m:7: chord_error_mm must be a number, without quotes: chord_error_mm = 0.01",
+        "m:8: rapid_tolerance_mm is 1000; it must lie between 0 and 100 mm",
+        "m:10: step_length_us must be a number, without quotes: step_length_us = 2",
+        "m:15: kind is 'round'; it must be 'linear' or 'rotary'",
+        "m:13: max_velocity_mm_s is 1000000000; it must lie between 0.001 and 10000 mm/s",
+        "m:11: axis x has no max_acceleration_mm_s2; add a number between 0.1 and 1000000 mm/s^2",
+        "m:14: max_jerk_mm_s3 is 0.1; it must lie between 1 and 1000000000 mm/s^3",
+        "m:16: travel_mm is [5, 1]; the second number must be the larger one",
+        "m:17: invert must be true or false",
+        "m:18: drive: 'nowhere' is no address of a drive; write modbus-tcp://HOST:PORT or "
+        "modbus-rtu:///dev/ttyUSB0?baud=115200",
+        "m:20: there are two axes 'x'; each needs a name of its own",
+        "m:21: axis y has no max_acceleration_mm_s2; add a number between 0.1 and 1000000 mm/s^2",
+        "m:24: motors must be 1 or 2"};
+    CHECK(machine_problems(text, "m") == expected);
+    CHECK(machine_problems("[path\n", "m").size() == 1);
+    CHECK(machine_problems("", "m") ==
+          std::vector<std::string>{"m: there is no [path]; write [path] and below it max_feed_mm_s = 100",
+                                   "m: there is no [[axis]]; a machine has one to six"});
+}
+
 TEST_CASE("The default machine is one that the planner takes") {
     const MachineDescription machine = default_machine();
     CHECK(machine.settings.axes == 3);

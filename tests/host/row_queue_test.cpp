@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/input_stream.hpp"
+#include "host_sim/program/waypoint_reader.hpp"
 #include "support/catch.hpp"
 
 #include <istream>

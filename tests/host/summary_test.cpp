@@ -54,7 +54,8 @@ void shared_limits(Summary& summary) {
 }
 
 void what_would_help(Summary& summary) {
-    summary.what_would_help = LimitAdvice{{{"jerk of x", 12.0, 0.028}, {"programmed feed", 12.34, 0.0001}}};
+    summary.what_would_help = LimitAdvice{
+        {{"jerk of x", "axis.x.max_jerk_mm_s3=33000", 12.0, 0.028}, {"programmed feed", {}, 12.34, 0.0001}}};
 }
 
 const struct {

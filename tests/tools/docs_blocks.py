@@ -23,7 +23,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LANGUAGES = {"sh", "text", "toml", "csv", "json", "cpp", "cmake"}
+LANGUAGES = {"sh", "text", "toml", "csv", "json", "cpp", "cmake", "python"}
 COPIED = ("docs", "examples", "bench")  # a page may write there
 LIMIT_S, WAIT_S = 60, 10  # of a page; until a drive answers
 COMMAND = re.compile(r"^ {4}(\$ |\./|splinefeed |build/|docs/\S*\.py|bench/|cmake |ctest |sudo |apt|printf |echo |socat )", re.MULTILINE)

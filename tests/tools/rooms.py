@@ -11,7 +11,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = "tests/tools/rooms.txt"
-TREES = {"firmware_core": "splinefeed/", "hal": "splinefeed/hal/", "host_sim": "host_sim/"}
+TREES = {"firmware_core": "splinefeed/", "hal": "splinefeed/hal/", "host_sim": "host_sim/", "python": "python/"}
 
 
 def arrows_of(table):
@@ -42,7 +42,7 @@ def room_of(path, rooms):
 def target_of(source, name):
     """The file of this repository that an include names, or None."""
     for tree in TREES:
-        start = ROOT / tree if tree != "host_sim" else ROOT
+        start = ROOT if TREES[tree] == f"{tree}/" else ROOT / tree
         if (start / name).is_file():
             return (start / name).relative_to(ROOT)
     beside = (ROOT / source).parent / name

@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST = 30
 PAGES = ("*.md", "docs/**/*.md", "bench/**/*.md", "examples/**/*.md")
 HEADERS = ("firmware_core/splinefeed/**/*.hpp", "hal/splinefeed/**/*.hpp")
-SAYING = ("host_sim/**/*.?pp",)
+SAYING = ("host_sim/**/*.?pp", "python/native/*.?pp")
 ITEM = re.compile(r"^\s*(?:[-*]|\d+\.|@\w+)\s+|^\s*(?=(?:Throws|Returns) )")
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?![a-z]*\.)|(?<=[.!?][\"')*_])\s+|(?<=[.!?]\*\*)\s+")
 NO_END = re.compile(r"\b(?:e\.g|i\.e|etc|vs|Fig|No|approx)\.$")

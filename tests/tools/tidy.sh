@@ -16,13 +16,13 @@ changed() {
     if [[ ${SPLINEFEED_LONG:-0} != 1 ]] && git rev-parse --quiet --verify "$base^{commit}" >/dev/null 2>&1; then
         { git diff --name-only "$base" && git ls-files --others --exclude-standard; } | sed 's/\.hpp$/.cpp/' | sort -u
     else
-        sources firmware_core hal host_sim
+        sources firmware_core hal host_sim python
     fi
 }
 # What this build leaves out, such as the source for another version of a library, has no headers here.
 built=$(sed -n "s|^ *\"file\": \"$PWD/\(.*\)\",\{0,1\}$|\1|p" "$build/compile_commands.json" | sort -u)
 [[ -n $built ]] # else nothing would be looked at
-mapfile -t files < <(comm -12 <(changed) <(sources firmware_core hal host_sim) | comm -12 - <(echo "$built") | grep '\.cpp$' || true)
+mapfile -t files < <(comm -12 <(changed) <(sources firmware_core hal host_sim python) | comm -12 - <(echo "$built") | grep '\.cpp$' || true)
 echo "${#files[@]} of $(wc -l <<<"$built") sources changed since $base"
 if ((${#files[@]} == 0)); then exit 0; fi
 

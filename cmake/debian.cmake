@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+# Debian's packages by CPack, from a build with the prefix /usr: cmake/packaging/debian.sh. splinefeed has the tool with its pages,
+# libsplinefeed-dev headers and archives, python3-splinefeed the Python module where it is built.
+set(SPLINEFEED_PACKAGE_CONTACT "the splinefeed authors <splinefeed@splinefeed.invalid>" CACHE STRING "Who answers for the packages")
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${SPLINEFEED_PACKAGE_CONTACT}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
+set(CPACK_COMPONENTS_ALL tool dev)
+
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME splinefeed)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION utils)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_TOOL_DESCRIPTION "waypoints and G-code become smooth motion
+splinefeed plans the motion of machines with one to six axes along smooth
+curves, within the limits of each axis. It runs it in a simulated machine,
+on drives on Modbus, or as step and direction on GPIO lines.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsplinefeed-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libmodbus-dev, libgpiod-dev")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "motion core of splinefeed - headers and archives
+A freestanding C++20 library that plans smooth motion, with ports to drives
+on Modbus and to GPIO lines, for CMake and pkg-config.")
+
+if(SPLINEFEED_HAS_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-splinefeed)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
+    set(CPACK_DEBIAN_PYTHON_DESCRIPTION "motion planning of splinefeed - Python module
+Motions along smooth curves through points and of G-code, with samples of
+all derivatives as numpy arrays. It plans with the bits of the command.")
+    # What Python compiles it removes itself.
+    set(scripts ${PROJECT_BINARY_DIR}/debian)
+    file(WRITE ${scripts}/postinst "#!/bin/sh\nset -e\nif command -v py3compile >/dev/null; then py3compile -p python3-splinefeed; fi\n")
+    file(WRITE ${scripts}/prerm "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null; then py3clean -p python3-splinefeed; fi\n")
+    file(CHMOD ${scripts}/postinst ${scripts}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${scripts}/postinst;${scripts}/prerm")
+endif()
+
+# Each package has its licence and a changelog.
+file(READ LICENSE licence)
+string(REGEX REPLACE "\n" "\n " licence "${licence}")
+string(REGEX REPLACE "\n \n" "\n .\n" licence "${licence}")
+string(REGEX REPLACE "\n \n" "\n .\n" licence "${licence}")
+string(REGEX REPLACE "[ .\n]+$" "." licence "${licence}")
+string(REGEX REPLACE "^MIT License" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\nCopyright: 2026 the splinefeed authors\nLicense: Expat" licence "${licence}")
+string(REGEX REPLACE "License: Expat\n \\.\n Copyright [^\n]*\n \\.\n" "License: Expat\n" licence "${licence}")
+file(WRITE ${PROJECT_BINARY_DIR}/debian/copyright "${licence}\n")
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+    string(TOUPPER ${component} upper)
+    set(name ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+    set(folder ${PROJECT_BINARY_DIR}/debian/${name})
+    file(WRITE ${folder}/changelog "${name} (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * What is new: CHANGELOG.md of the sources.\n\n -- ${SPLINEFEED_PACKAGE_CONTACT}  ${now}\n")
+    execute_process(COMMAND gzip -9nf ${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)
+    install(FILES ${folder}/changelog.gz ${PROJECT_BINARY_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+            COMPONENT ${component})
+endforeach()
+include(CPack)

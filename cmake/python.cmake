@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# The Python module, where pybind11 and numpy are installed: SPLINEFEED_HAS_PYTHON says so, and SPLINEFEED_PYTHON_WHY why it is not.
+# -DPython_EXECUTABLE= names the interpreter; else it is the first of PATH's and the system's that has numpy.
+# A module is a shared object, so all that it links is compiled for any address, and keeps its names for itself.
+set(SPLINEFEED_HAS_PYTHON OFF)
+if(NOT Python_EXECUTABLE)
+    foreach(candidate python3 /usr/bin/python3)
+        execute_process(COMMAND ${candidate} -c "import numpy, sys; print(sys.executable)" OUTPUT_VARIABLE found
+                        RESULT_VARIABLE status OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+        if(status STREQUAL 0)
+            set(Python_EXECUTABLE ${found})
+            break()
+        endif()
+    endforeach()
+endif()
+if(Python_EXECUTABLE)
+    set(PYBIND11_FINDPYTHON ON)
+    find_package(Python 3.9 COMPONENTS Interpreter Development.Module QUIET)
+    find_package(pybind11 CONFIG QUIET)
+endif()
+if(NOT Python_Development.Module_FOUND OR NOT pybind11_FOUND)
+    set(SPLINEFEED_PYTHON_WHY "there is no pybind11 or no numpy (Debian: apt-get install pybind11-dev python3-dev python3-numpy)")
+    message(STATUS "Without the Python module: ${SPLINEFEED_PYTHON_WHY}")
+    return()
+endif()
+set(SPLINEFEED_HAS_PYTHON ON)
+message(STATUS "Python module: ${Python_EXECUTABLE}")
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)

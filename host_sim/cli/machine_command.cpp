@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/cli/machine_command.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/planning/machine_limits.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+// What the numbers are together, once each of them is right.
+std::vector<std::string> problems_of(const std::string& text, const std::string& file) {
+    std::vector<std::string> problems = machine_problems(text, file);
+    if (problems.empty()) {
+        try {
+            static_cast<void>(plan_figures(ScalarKind::fixed, parse_machine(text, file)));
+        } catch (const InputError& error) {
+            problems.emplace_back(error.what());
+        }
+    }
+    return problems;
+}
+
+} // namespace
+
+int check_machine(const std::string& file) {
+    const std::string text = read_text_file(file, largest_machine_file);
+    const std::vector<std::string> problems = problems_of(text, file);
+    if (!problems.empty()) {
+        print_whole(fmt::format("{}\n", fmt::join(problems, "\n")), "the problems");
+        return 1;
+    }
+    const MachineDescription machine = parse_machine(text, file);
+    print_whole(
+        fmt::format("{}: nothing is wrong; its axes are {}\n", printable(file),
+                    fmt::join(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes, ", ")),
+        "the answer");
+    return 0;
+}
+
+} // namespace splinefeed::host

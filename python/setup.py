@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""Builds the extension by CMake, as ./run builds the tool, from the repository that this folder is part of."""
+import pathlib
+import subprocess
+import sys
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+class CMakeBuild(build_ext):
+    """The target splinefeed_python of the repository."""
+
+    def build_extension(self, ext):
+        build = ROOT / "build" / sys.implementation.cache_tag  # as deep as others: a compiler cache finds what they have compiled
+        subprocess.run(["cmake", "--preset", "release", "-S", ROOT, "-B", build, "-DSPLINEFEED_PYTHON=ON", "-DSPLINEFEED_TESTS=OFF",
+                        "-DSPLINEFEED_BENCHMARKS=OFF", "-DSPLINEFEED_BITS=OFF", f"-DPython_EXECUTABLE={sys.executable}"],
+                       cwd=ROOT, check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "splinefeed_python"], check=True)
+        made, = (build / "python/splinefeed").glob("_native.*.so")
+        target = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(made.read_bytes())
+
+
+setup(ext_modules=[Extension("splinefeed._native", sources=[])], cmdclass={"build_ext": CMakeBuild})

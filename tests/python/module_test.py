@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: MIT
+"""The Python module against the command, and against itself."""
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import tempfile
+import threading
+import time
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import splinefeed
+import tool
+from splinefeed import _native, Curve, InputError, Machine, OutputError, Stream, UsageError
+
+EXAMPLES = tool.ROOT / "examples"
+FIVE = [[0, 0], [10, 5], [20, 0], [30, 5], [40, 0]]
+LIMITS = {"max_velocity_mm_s": 100, "max_acceleration_mm_s2": 1000, "max_feed_mm_s": 100}
+JERKY = Machine("xyz", **LIMITS, max_jerk_mm_s3=30000, steps_per_mm=320)
+
+
+def noise(rows, axes=2, seed=1):
+    return np.cumsum(np.random.default_rng(seed).normal(0, 4, (rows, axes)), axis=0)
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+class Planning(Scratch):
+    """Motions, and what they say of themselves."""
+
+    def same_as_the_command(self, motion, path, *options):
+        rows, summary = tool.planned(path, motion.machine, *options)
+        np.testing.assert_array_equal(tool.as_rows(motion.segments, len(motion.machine.axes)), rows)
+        self.assertEqual(tool.without_process(motion.summary), tool.without_process(summary))
+        self.assertAlmostEqual(motion.time, summary["cycle_time_s"], 12)
+        return motion
+
+    def test_programs_are_those_of_the_command(self):
+        g = "G21 G90 F3000\nG0 X1 Y1\nG64 P0.02\n" + "".join(f"G1 X{i % 7} Y{i}\n" for i in range(30)) + "M2\n"
+        (self.folder / "p.ngc").write_text(g)
+        self.same_as_the_command(splinefeed.plan_gcode(g, JERKY), self.folder / "p.ngc")
+        self.same_as_the_command(splinefeed.plan_gcode(self.folder / "p.ngc", JERKY), self.folder / "p.ngc")
+        self.same_as_the_command(splinefeed.plan_gcode(EXAMPLES / "ring.gcode", dialect="marlin", ignore=["E", "unknown"]),
+                                 EXAMPLES / "ring.gcode", "--dialect", "marlin", "--ignore", "E,unknown")
+        elements = [{"type": "line", "from": [0, 0, 0], "to": [10, 0, 0]}, {"type": "line", "from": [10, 0, 0], "to": [10, 10, 0], "tolerance_mm": 0.2}]
+        (self.folder / "e.json").write_text(json.dumps({"elements": elements}))
+        for given in (elements, {"elements": elements}, json.dumps({"elements": elements}), self.folder / "e.json"):
+            self.same_as_the_command(splinefeed.plan_elements(given, JERKY, tolerance_mm=0.05), self.folder / "e.json",
+                                     "--tolerance", "0.05")
+        self.same_as_the_command(splinefeed.plan_elements(EXAMPLES / "butterfly.json", JERKY), EXAMPLES / "butterfly.json")
+
+    def test_columns_and_options_are_those_of_the_command(self):
+        points = noise(40)
+        feed, corner = np.where(np.arange(40) % 3, np.nan, 30.0), [None, True, False, None] * 10
+        rows = "\n".join(f"{x!r},{y!r},{'' if np.isnan(f) else f},{'' if c is None else int(c)}"
+                         for (x, y), f, c in zip(points.tolist(), feed, corner))
+        (self.folder / "p.csv").write_text(f"x,y,feed,corner\n{rows}\n")
+        self.same_as_the_command(splinefeed.plan(points, JERKY, feed_mm_s=feed, corner=corner), self.folder / "p.csv")
+        np.savetxt(self.folder / "q.csv", points, delimiter=",", fmt="%.17g")
+        for options, typed in (({"curve": "catmull-rom", "tension": 0.4, "smooth": True}, "--curve catmull-rom --tension 0.4 --smooth"),
+                               ({"curve": "polyline", "tolerance_mm": 0.3}, "--curve polyline --tolerance 0.3"),
+                               ({"closed": True, "window": 64, "jerk_scalar": "float"}, "--closed --window 64 --jerk-scalar float"),
+                               ({"start_tangent": np.array([0, 1])}, "--start-tangent 0,1"),
+                               ({"curve": "ferguson", "lambda_": 1.5, "mu": "auto"}, "--curve ferguson --lambda 1.5 --mu auto")):
+            with self.subTest(typed):
+                self.same_as_the_command(splinefeed.plan(points, JERKY, **options), self.folder / "q.csv", *typed.split())
+
+    def test_samples_are_the_segments_and_the_trace(self):
+        motion = splinefeed.plan(noise(30, 3), JERKY)
+        np.savetxt(self.folder / "p.csv", noise(30, 3), delimiter=",", fmt="%.17g")
+        (self.folder / "m.toml").write_text(JERKY.toml)
+        status, _, error = tool.call("plan", self.folder / "p.csv", "-m", self.folder / "m.toml", "--trace", self.folder / "t.csv", "--quiet")
+        self.assertEqual(status, 0, error)
+        trace = np.loadtxt(self.folder / "t.csv", delimiter=",", skiprows=1)
+        at = motion.sample(trace[:, 0])
+        np.testing.assert_allclose(at.position, trace[:, 1:4], rtol=0, atol=2e-9)
+        np.testing.assert_allclose(np.linalg.norm(at.velocity, axis=1), trace[:, 4], rtol=0, atol=1e-6)
+        # Where segments meet, also exactly there, and in any order.
+        unit = 320 * _native.units_per_count
+        order = np.random.default_rng(2).permutation(len(motion.segments))
+        np.testing.assert_allclose(motion.sample(motion.begins[:-1][order]).position, motion.segments["start"][order] / unit, rtol=0, atol=1e-12)
+        h, inner = 1e-5, np.linspace(0.01, motion.time - 0.01, 997)
+        below, here, above = motion.sample(inner - h), motion.sample(inner), motion.sample(inner + h)
+        for derivative, of in (("velocity", "position"), ("acceleration", "velocity")):
+            np.testing.assert_allclose((getattr(above, of) - getattr(below, of)) / (2 * h), getattr(here, derivative), rtol=0, atol=0.5)
+        dense = motion.sample(1e-4)
+        self.assertAlmostEqual(dense.time[-1], motion.time, delta=1e-4)
+        for name, most in (("velocity", 100), ("acceleration", 1000), ("jerk", 30000)):
+            self.assertLess(np.abs(getattr(dense, name)).max(), most * (1 + 1e-9))
+            self.assertGreater(np.abs(getattr(dense, name)).max(), 0.85 * most)
+        behind = motion.sample([motion.time, motion.time + 5])
+        np.testing.assert_array_equal(behind.position, np.repeat(motion.segments["end"][-1:] / unit, 2, axis=0))
+        self.assertEqual((behind.velocity.any(), behind.acceleration.any(), behind.jerk.any()), (False, False, False))
+
+    def test_segments_know_their_lines_and_limits(self):
+        motion = splinefeed.plan_gcode("G21 G90 F3000\nG1 X10\nG1 Y10 F600\nG1 X0\nM2\n", JERKY)
+        self.assertEqual(sorted(set(motion.lines)), [2, 3, 4])
+        self.assertTrue((np.diff(motion.lines.astype(int)) >= 0).all())
+        self.assertEqual(len(motion.binding), len(motion.segments))
+        ticks = motion.segments["duration_ticks"]
+        self.assertAlmostEqual(ticks[motion.binding == "no limit"].sum() / ticks.sum(), motion.summary["limit_share"]["none"], 9)
+        self.assertIn("programmed feed", set(motion.binding[motion.lines == 3]))
+        self.assertIn("jerk of y", set(motion.binding[motion.lines == 3]))
+        self.assertEqual(sorted(set(splinefeed.plan(FIVE, JERKY).lines)), [2, 3, 4, 5])
+        self.assertFalse(motion.segments.flags.writeable)
+
+    def test_advice_report_and_warnings(self):
+        motion = splinefeed.plan(FIVE, advice=True)
+        self.assertEqual(motion.time, 0.602)
+        self.assertEqual(motion.summary["what_would_help"][0]["limit"], "acceleration of y")
+        motion.report(self.folder / "r.html")
+        self.assertIn('"program":"points"', (self.folder / "r.html").read_text().replace(" ", ""))
+        with self.assertRaises(OutputError):
+            motion.report(self.folder / "none" / "r.html")
+        with self.assertWarnsRegex(splinefeed.SplinefeedWarning, "--dialect marlin"):
+            splinefeed.plan_gcode(EXAMPLES / "ring.gcode", dialect="auto", ignore="E,unknown")
+
+    def test_a_plot_has_the_path_and_each_axis(self):
+        try:
+            import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
+        except ImportError:
+            self.skipTest("there is no matplotlib")
+        figure = splinefeed.plan(FIVE, JERKY).plot()
+        self.assertEqual([len(axes.lines) for axes in figure.axes if axes.get_ylabel().startswith("jerk")], [9])
+        figure.savefig(self.folder / "f.png")
+        self.assertGreater((self.folder / "f.png").stat().st_size, 10_000)
+
+
+class Machines(Scratch):
+    def test_a_machine_of_arguments_is_one_of_a_file(self):
+        machine = Machine("xza", max_feed_mm_s=80, max_velocity_mm_s=[100, 50, 360], max_acceleration_mm_s2={"x": 1000, "z": 500, "a": 2000},
+                          max_jerk_mm_s3=[None, 20000, None], travel_mm=[(-100, 300), None, None], kind=["linear", "linear", "rotary"],
+                          default_tolerance_mm=0.05, sample_period_us=500, name="a \"mill\"")
+        (self.folder / "m.toml").write_text(machine.toml)
+        again = Machine.from_toml(self.folder / "m.toml")
+        for one in (machine, again):
+            self.assertEqual((one.name, one.axes, one.toml), ('a "mill"', ("x", "z", "a"), machine.toml))
+            np.testing.assert_array_equal(one.limits["max_velocity_mm_s"], [100, 50, 360])
+            np.testing.assert_array_equal(one.limits["max_jerk_mm_s3"], [np.nan, 20000, np.nan])
+            self.assertEqual(one.limits["sample_period_us"], 500)
+        points = noise(20, 3)
+        np.testing.assert_array_equal(splinefeed.plan(points, machine).segments, splinefeed.plan(points, again).segments)
+
+    def test_the_default_machine_is_the_command_s(self):
+        default = _native.default_machine().limits
+        self.assertEqual(str(Machine.default().limits), str({key: np.array(v) if isinstance(v, list) else v for key, v in default.items()}))
+
+    def test_what_is_wrong_is_said_as_the_command_says_it(self):
+        for wrong in ({"max_jerk_mm_s3": -1}, {"max_velocity_mm_s": 1e9}, {"axes": "xx"}, {"max_feed_mm_s": None}, {"max_acceleraton": 1},
+                      {"travel_mm": (5, 1)}, {"sample_period_us": 1}, {"kind": "round"}):
+            with self.subTest(wrong):
+                with mock.patch.object(_native, "parse_machine", wraps=_native.parse_machine) as parse, self.assertRaises(InputError) as raised:
+                    Machine(**{"axes": "xyz", **LIMITS, **wrong})
+                (self.folder / "machine").write_text(parse.call_args[0][0])
+                status, _, error = tool.call("plan", EXAMPLES / "path61.csv", "-m", "machine", folder=self.folder)
+                self.assertEqual((status, error), (2, f"{raised.exception}\n"))
+
+
+class Refusals(Scratch):
+    def test_points(self):
+        nan = float("nan")
+        for points, options, error, sentence in (
+                ([[0, 0]], {}, InputError, "points:1: there is a single waypoint; a path needs two"),
+                ([[0, 0], [nan, 1]], {}, InputError, "points:2: x 'nan' is out of range; a position must lie within +-1048576 mm"),
+                ([[0, 0], [70000, 1]], {}, InputError, "points:2: x moves from 0 to 70000 mm; two successive waypoints must be at most"),
+                ([[0, 0], [1, 1]], {"feed_mm_s": 1e6}, InputError, "points:1: feed '1000000' is out of range"),
+                ([[0, 0], [1, 1]], {"corner": [0, 7]}, InputError, "points:2: corner is 7; it must be 1 (a corner), 0 (none) or nan"),
+                ([[0] * 4, [1] * 4], {}, InputError, "points: the points have 4 coordinates; there must be 1 to 3: x, y, z"),
+                ([0, 1, 2], {}, ValueError, "points must be an array of the shape (n, axes)"),
+                ([[0, 0], [1, 1]], {"feed_mm_s": [1.0, 2.0, 3.0]}, ValueError, "feed_mm_s must have one number for each of the 2 points"),
+                ([[0, 0], [1, 1]], {"curve": "g3"}, UsageError, "--curve 'g3': there is no such method; available are g2,"),
+                ([[0, 0], [1, 1]], {"scalar": "doubl"}, UsageError, "--scalar 'doubl': it must be one of fixed, float, double; did you mean 'double'?"),
+                ([[0, 0], [1, 1]], {"window": 3}, UsageError, "--window '3': it must be a whole number from 10 to 1000000"),
+                ([[0, 0], [1, 1]], {"tensoin": 1}, TypeError, "there is no argument 'tensoin'; did you mean 'tension'?"),
+                ([[0, 0], [500, 0]], {"machine": Machine("xy", **LIMITS, travel_mm=(0, 300))}, InputError, "axis x goes to 500.000000 mm; its travel_mm is [0, 300]"),
+        ):
+            with self.subTest(sentence):
+                with self.assertRaises(error) as raised:
+                    splinefeed.plan(points, **options)
+                self.assertIn(sentence, str(raised.exception))
+                self.assertEqual(isinstance(raised.exception, splinefeed.Error), error not in (ValueError, TypeError))
+
+    def test_programs_are_refused_as_by_the_command(self):
+        for name, text in (("p.ngc", "G1 X10 F3000\nG1 Q7\n"), ("p.ngc", "M98 P\n"), ("p.json", '{"elements": [{"type": "lime"}]}\n'), ("p.json", "{\n")):
+            with self.subTest(text):
+                (self.folder / name).write_text(text)
+                status, _, error = tool.call("plan", name, folder=self.folder)
+                plan = splinefeed.plan_gcode if name.endswith("ngc") else splinefeed.plan_elements
+                with contextlib.chdir(self.folder), self.assertRaises(InputError) as raised:
+                    plan(name)
+                self.assertEqual((status, error), (2, f"{raised.exception}\n"))
+                with self.assertRaisesRegex(InputError, "^program:"):
+                    plan(text)
+        with self.assertRaisesRegex(InputError, "none.ngc: cannot be opened"):
+            splinefeed.plan_gcode("none.ngc")
+
+
+class Curves(unittest.TestCase):
+    def test_curves_are_those_of_the_command(self):
+        points = noise(12)
+        text = "\n".join(f"{x!r},{y!r}" for x, y in points.tolist()) + "\n"
+        self.assertEqual(len(splinefeed.curve_names()), 9)
+        for name in splinefeed.curve_names():
+            with self.subTest(name):
+                rows = points if name != "beta-chain" else points[:10]
+                status, out, error = tool.call("curve", "-", "--curve", name, text="\n".join(text.split("\n")[:len(rows)]) + "\n")
+                self.assertEqual(status, 0, error)
+                curve = Curve(rows, name)
+                segments = json.loads(out)["segments"]
+                self.assertEqual(len(curve), len(segments))
+                for mine, theirs in zip(curve.bezier, segments):
+                    np.testing.assert_allclose(mine, theirs["control_points"], rtol=0, atol=1e-9)
+
+    def test_values_derivatives_and_lengths(self):
+        curve = Curve(noise(12, 3), "ferguson", scalar="double")
+        u = np.linspace(0, len(curve), 301)[1:-1] + 1e-3
+        for order in (1, 2):
+            by_difference = (curve.derivative(u + 1e-6, order - 1) - curve.derivative(u - 1e-6, order - 1)) / 2e-6
+            np.testing.assert_allclose(curve.derivative(u, order), by_difference, rtol=0, atol=1e-5)
+        np.testing.assert_array_equal(curve.evaluate(np.arange(len(curve))), [piece[0] for piece in curve.bezier])
+        np.testing.assert_array_equal(curve.evaluate(float(len(curve))), curve.bezier[-1][-1])
+        self.assertEqual(curve.evaluate(np.zeros((2, 5))).shape, (2, 5, 3))
+        fine = curve.evaluate(np.linspace(0, len(curve), 400_001))
+        self.assertAlmostEqual(curve.arc_length(), np.linalg.norm(np.diff(fine, axis=0), axis=1).sum(), 6)
+        self.assertAlmostEqual(curve.arc_length(0.3, 1.7) + curve.arc_length(1.7, 5.0), curve.arc_length(0.3, 5.0), 9)
+        for wrong in (-0.1, len(curve) + 0.1, np.nan):
+            with self.assertRaises(ValueError):
+                curve.evaluate(wrong)
+
+    def test_mixed_degrees_and_files(self):
+        document = {"segments": [{"control_points": [[0, 0], [1, 0]]}, {"control_points": [[1, 0], [2, 0], [2, 1], [3, 1]]},
+                                 {"control_points": [[3, 1], [4, 1], [4, 2]]}]}
+        curve = Curve.from_json(document)
+        np.testing.assert_allclose(curve.evaluate([0.5, 1.5, 2.5, 3.0]), [[0.5, 0], [2, 0.5], [3.75, 1.25], [4, 2]], atol=1e-15)
+        np.testing.assert_array_equal(curve.derivative([0.5, 2.5], 2), [[0, 0], [-2, 2]])
+        self.assertGreater(Curve.from_json(EXAMPLES / "logo.json").arc_length(), 100)
+
+
+class Streams(Scratch):
+    def drain(self, stream, most=100_000):
+        out = []
+        while len(part := stream.next(most)):
+            out.append(part)
+        return np.concatenate(out)
+
+    def test_points_in_any_portions_give_the_bits_of_a_plan(self):
+        points, rng = noise(300, 3), np.random.default_rng(4)
+        for curve, machine in (("g2", JERKY), ("catmull-rom", Machine.default()), ("polyline", JERKY)):
+            with self.subTest(curve):
+                stream, out, at = Stream(machine, curve), [], 0
+                while at < len(points):
+                    portion = int(rng.integers(1, 9))
+                    stream.push(points[at] if portion == 1 else points[at:at + portion])
+                    at += portion
+                    out.append(stream.next(int(rng.integers(1, 500))))
+                stream.finish()
+                out.append(self.drain(stream))
+                self.assertEqual(stream.state, "finished")
+                np.testing.assert_array_equal(np.concatenate(out), splinefeed.plan(points, machine, curve).segments)
+
+    def test_steering_is_that_of_events(self):
+        points = noise(60)
+        np.savetxt(self.folder / "p.csv", points, delimiter=",", fmt="%.17g")
+        (self.folder / "e.csv").write_text("t,event,value\n0.2,override,0.5\n0.6,hold\n1.2,resume\n")
+        machine = Machine("xy", **LIMITS)
+        expected, _ = tool.planned(self.folder / "p.csv", machine, "--events", self.folder / "e.csv")
+        stream, out, now = Stream(machine), [], 0.0
+        stream.push(points)
+        stream.finish()
+        steps = [(0.2, lambda: stream.override(0.5)), (0.6, stream.hold), (1.2, stream.resume)]
+        while True:
+            while steps and steps[0][0] <= now + 1e-9:
+                steps.pop(0)[1]()
+            segment = stream.next(1)
+            if not len(segment) and stream.state == "held":
+                segment = stream.stand()
+            if not len(segment):
+                break
+            out.append(segment)
+            now += segment["duration_ticks"][0] / 8e6
+        np.testing.assert_array_equal(tool.as_rows(np.concatenate(out), 2), expected)
+
+    def test_a_machine_that_cannot_wait_stops_at_the_last_known_point(self):
+        stream = Stream(Machine("xy", **LIMITS), window=64)
+        stream.push(noise(60))
+        first = stream.next(10_000)
+        self.assertEqual(stream.state, "starved")
+        self.assertTrue(first["end_velocity"][-1].any())
+        rest = stream.next(10_000, drain=True)
+        self.assertFalse(rest["end_velocity"][-1].any())
+        self.assertEqual(rest["index"][0], first["index"][-1] + 1)
+        stream.push(noise(60, seed=2) + noise(60)[-1])
+        stream.finish()
+        self.assertGreater(len(self.drain(stream)), 0)
+        self.assertEqual(stream.state, "finished")
+
+    def test_what_a_stream_refuses(self):
+        with self.assertRaisesRegex(UsageError, "bspline-interpolation needs all points before it begins; take plan"):
+            Stream(curve="bspline-interpolation")
+        stream = Stream(Machine("xy", **LIMITS, travel_mm=(0, 45)))
+        with self.assertRaisesRegex(InputError, "points: the points have 3 coordinates; there must be 1 to 2: x, y"):
+            stream.push([1, 2, 3])
+        stream.push([0, 0])
+        with self.assertRaisesRegex(InputError, "points: these points have 1 coordinates; the first ones have 2"):
+            stream.push([1])
+        with self.assertRaisesRegex(InputError, "points:1: there is a single waypoint"):
+            stream.finish()
+        stream.push([[30, 0], [60, 0]])
+        stream.finish()
+        with self.assertRaisesRegex(UsageError, "nothing can be pushed behind finish"):
+            stream.push([1, 1])
+        with self.assertRaisesRegex(InputError, r"axis x goes to .* its travel_mm is \[0, 45\]"):
+            self.drain(stream)
+
+
+class LongWork(unittest.TestCase):
+    """Others run meanwhile, and Ctrl-C ends it."""
+
+    def test_ctrl_c(self):
+        loop = "O1 while [1 EQ 1]\nG1 X[#1 MOD 7] F3000\n#1 = [#1 + 1]\nO1 endwhile\nM2\n"
+        stream = Stream()
+        stream.push(noise(200_000))
+        for work in (lambda: splinefeed.plan(noise(2_000_000)), lambda: splinefeed.plan_gcode(loop), lambda: stream.next(10_000_000)):
+            threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+            begun = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+            self.assertLess(time.monotonic() - begun, 5.0)
+
+    def test_other_threads_run(self):
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+        thread = threading.Thread(target=count)
+        thread.start()
+        before = counted[0]
+        begun = time.monotonic()
+        splinefeed.plan(noise(20_000))
+        took = time.monotonic() - begun
+        during = counted[0] - before
+        done.set()
+        thread.join()
+        self.assertGreater(during, 20 * took)  # a thousand a second, were it alone
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
