@@ -84,6 +84,8 @@ public:
     /// Factor of the programmed feed. Values outside 0 to 2 are limited to that range; 0 stops the motion. The
     /// machine's limits still apply.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
+    /// Factor of the largest speed of moves with rapid_feed. Values outside 1/128 to 1 are limited to that range.
+    void override_rapids(S ratio) noexcept { steering().override_rapids(ratio); }
     /// Brakes to standstill on the path, as hard as the axes allow.
     void hold() noexcept { steering().hold(); }
     /// Continues from where the motion was held. If the machine is still braking, it accelerates again at once.

@@ -41,7 +41,7 @@ Passed<S> pass_over(std::vector<PlannedCell<S>> cells, const MotionLimits<S>& li
         window.add_measured();
         window.take();
     }
-    done.pass.begin(window, ratio, open_end);
+    done.pass.begin(window, {ratio, from_integer<S>(1)}, open_end);
     CHECK(done.pass.running());
     bool complete = false;
     while (!complete) {
@@ -106,7 +106,7 @@ TEST_CASE("a pass over nothing is complete at once", "[pass]") {
     const auto limits = MotionLimits<double>::make(machine).value();
     CellWindow<double> window(none);
     BackwardPass<double> pass;
-    pass.begin(window, 1.0, false);
+    pass.begin(window, {}, false);
     WorkBudget budget(1);
     CHECK(pass.run(window, limits, budget));
     CHECK(pass.last_final() == 0);

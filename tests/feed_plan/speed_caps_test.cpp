@@ -66,13 +66,16 @@ TEST_CASE("what is wanted is the programmed feed, with its override, up to the c
     const SpeedCaps<double> caps(limits);
     Cell<double> cell = cell_along(0.6, 0.8);
     const double cap = caps.cap_sq(cell);
-    CHECK(caps.wanted_sq(cell, cap, 1.0) == cap);
-    CHECK(caps.wanted_sq(cell, cap, 0.5) == Approx(50.0 * 50.0).epsilon(1e-4));
+    CHECK(caps.wanted_sq(cell, cap, {1.0, 1.0}) == cap);
+    CHECK(caps.wanted_sq(cell, cap, {0.5, 1.0}) == Approx(50.0 * 50.0).epsilon(1e-4));
     cell.feed_mm_s = 40.0;
-    CHECK(caps.wanted_sq(cell, cap, 1.0) == Approx(40.0 * 40.0).epsilon(1e-4));
-    CHECK(caps.wanted_sq(cell, cap, 2.0) == Approx(80.0 * 80.0).epsilon(1e-4));
-    CHECK(caps.wanted_sq(cell, 9.0, 2.0) == 9.0);
+    CHECK(caps.wanted_sq(cell, cap, {1.0, 1.0}) == Approx(40.0 * 40.0).epsilon(1e-4));
+    CHECK(caps.wanted_sq(cell, cap, {2.0, 1.0}) == Approx(80.0 * 80.0).epsilon(1e-4));
+    CHECK(caps.wanted_sq(cell, 9.0, {2.0, 1.0}) == 9.0);
     CHECK(caps.programmed_sq(cell) == Approx(40.0 * 40.0).epsilon(1e-4));
+    cell.feed_mm_s = rapid_feed<double>; // follows its own override alone
+    CHECK(caps.wanted_sq(cell, cap, {0.5, 1.0}) == cap);
+    CHECK(caps.wanted_sq(cell, cap, {2.0, 0.5}) == Approx(0.25 * cap).epsilon(1e-12));
     // Even an override of 0 leaves a speed that a cell can be passed with: the hold is what stops.
-    CHECK(caps.wanted_sq(cell, cap, 0.0) > 0.0);
+    CHECK(caps.wanted_sq(cell, cap, {0.0, 1.0}) > 0.0);
 }

@@ -328,7 +328,7 @@ TEMPLATE_TEST_CASE("what the motion does about its steering", "[stream][steering
     CHECK((segment.start == end && segment.end == end && segment.start_velocity[0] == 0));
     trajectory.override_feed(from_double<S>(7.0)); // 2
     CHECK(trajectory.activity() == Activity::running);
-    CHECK(to_double(trajectory.feed_plan().steering().ratio()) == 2.0);
+    CHECK(to_double(trajectory.feed_plan().steering().ratios().feed) == 2.0);
     run(50);
     trajectory.override_feed(from_double<S>(-1.0)); // 0
     run(20);

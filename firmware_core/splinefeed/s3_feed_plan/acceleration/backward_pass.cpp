@@ -4,10 +4,10 @@
 namespace splinefeed {
 
 template <Scalar S>
-void BackwardPass<S>::begin(const CellWindow<S>& window, S ratio, bool open_end) noexcept {
+void BackwardPass<S>::begin(const CellWindow<S>& window, const SpeedRatios<S>& ratios, bool open_end) noexcept {
     cells_ = window.size();
     last_final_ = 0;
-    ratio_ = ratio;
+    ratios_ = ratios;
     machine_sq_ = override_sq_ = S{}; // standstill
     open_end_ = open_end;
     begun_ = false;
@@ -38,7 +38,7 @@ void BackwardPass<S>::visit(CellWindow<S>& window, const MotionLimits<S>& limits
     const SpeedCaps<S> caps(limits);
     const std::size_t i = --cells_;
     PlannedCell<S>& here = window.at(i);
-    const S wanted = begun_ ? wanted_sq_ : caps.wanted_sq(here.cell, here.cap_sq, ratio_);
+    const S wanted = begun_ ? wanted_sq_ : caps.wanted_sq(here.cell, here.cap_sq, ratios_);
     if (!begun_ && open_end_ && !here.cell.stop_at_end) {
         machine_sq_ = here.cap_sq;
         override_sq_ = wanted;
@@ -50,7 +50,7 @@ void BackwardPass<S>::visit(CellWindow<S>& window, const MotionLimits<S>& limits
         const PlannedCell<S>& before = window.at(i - 1);
         const bool stop = before.cell.stop_at_end;
         machine_cap = stop ? S{} : smaller(machine_cap, before.cap_sq);
-        wanted_sq_ = caps.wanted_sq(before.cell, before.cap_sq, ratio_);
+        wanted_sq_ = caps.wanted_sq(before.cell, before.cap_sq, ratios_);
         override_cap = stop ? S{} : smaller(override_cap, wanted_sq_);
     }
     const auto reached_from = [&](S beyond, S at_most) {

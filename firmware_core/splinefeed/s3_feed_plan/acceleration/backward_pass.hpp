@@ -17,16 +17,16 @@ namespace splinefeed {
 template <Scalar S>
 class BackwardPass {
 public:
-    /// @param ratio  factor of the programmed feed
+    /// @param ratios  factors of the speeds that are wanted
     /// @param open_end  the speed at the end is free: a motion that follows need not stop there
-    void begin(const CellWindow<S>& window, S ratio, bool open_end) noexcept;
+    void begin(const CellWindow<S>& window, const SpeedRatios<S>& ratios, bool open_end) noexcept;
     /// false: the budget is spent; call again. @pre running(), the window of begin()
     bool run(CellWindow<S>& window, const MotionLimits<S>& limits, WorkBudget& work) noexcept;
     void cancel() noexcept { running_ = false; }
 
     [[nodiscard]] bool running() const noexcept { return running_; }
-    /// The factor of the programmed feed that the pass counts with.
-    [[nodiscard]] S ratio() const noexcept { return ratio_; }
+    /// The factors that the pass counts with.
+    [[nodiscard]] const SpeedRatios<S>& ratios() const noexcept { return ratios_; }
     [[nodiscard]] bool open_end() const noexcept { return open_end_; }
     /// The last node whose K no longer window can raise, or 0. @pre the pass is complete
     [[nodiscard]] std::size_t last_final() const noexcept { return last_final_; }
@@ -38,7 +38,7 @@ private:
 
     std::size_t cells_ = 0; // that are still to be visited
     std::size_t last_final_ = 0;
-    S ratio_ = from_integer<S>(1);
+    SpeedRatios<S> ratios_{};
     S machine_sq_{};  // K of the machine at the node behind the next cell
     S override_sq_{}; // K of the steering there
     S wanted_sq_{};   // v^2 that is wanted in the next cell

@@ -37,7 +37,7 @@ template <Scalar S>
 void FeedPlan<S>::begin_pass(bool open_end) noexcept {
     steered_ = steered_ || steering_.pending();
     steering_.acknowledge();
-    pass_.begin(window_, steering_.ratio(), open_end);
+    pass_.begin(window_, steering_.ratios(), open_end);
 }
 
 template <Scalar S>

@@ -71,7 +71,7 @@ public:
 private:
     /// v^2 that is wanted in the front cell.
     [[nodiscard]] S wanted_sq() const noexcept {
-        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.ratio());
+        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.ratios());
     }
     Pull measure(WorkBudget& work) noexcept;
     Pull fill(WorkBudget& work) noexcept;

@@ -48,8 +48,14 @@ S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
 }
 
 template <Scalar S>
-S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept {
+S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const SpeedRatios<S>& ratios) const noexcept {
     const S programmed = cell.feed_mm_s;
+    if (programmed < S{}) { // a rapid
+        return ratios.rapids < from_integer<S>(1)
+                   ? larger(cap_sq * (ratios.rapids * ratios.rapids), literal<S>(slowest_sq))
+                   : cap_sq;
+    }
+    const S ratio = ratios.feed;
     const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
     if (!(feed < limits_.feed_mm_s)) {
         return cap_sq;

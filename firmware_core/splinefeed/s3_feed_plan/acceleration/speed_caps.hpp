@@ -4,6 +4,7 @@
 
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/steering/steering.hpp"
 
 namespace splinefeed {
 
@@ -21,8 +22,8 @@ public:
     /// What the machine allows, whatever the programmed feed. This is the only place where a limit of the speed is
     /// stated.
     [[nodiscard]] S cap_sq(const Cell<S>& cell) const noexcept;
-    /// What is wanted in a cell with this cap, for a factor of the programmed feed.
-    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept;
+    /// What is wanted in a cell with this cap, for these factors.
+    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, const SpeedRatios<S>& ratios) const noexcept;
     /// The feed that is programmed for a cell; if none is programmed, the machine's feed.
     [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
 

@@ -29,7 +29,7 @@ JerkPlan<S, R>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, con
 
 template <Scalar S, Floating R>
 R JerkPlan<S, R>::wanted_sq(const Cell<S>& cell, S most_sq) const noexcept {
-    return to_floating<R>(SpeedCaps<S>(*limits_).wanted_sq(cell, most_sq, steering_.ratio()));
+    return to_floating<R>(SpeedCaps<S>(*limits_).wanted_sq(cell, most_sq, steering_.ratios()));
 }
 
 template <Scalar S, Floating R>
