@@ -29,6 +29,7 @@ void Controller::greet() noexcept {
 void Controller::connect() noexcept {
     answers_.clear();
     lines_.drop_partial();
+    of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
     status_.refresh();
     greet();
     if (held_) {
@@ -147,7 +148,13 @@ void Controller::open_door() noexcept {
     spindle_.suspend();
 }
 
+// A line that waits will be executed.
 ControllerState Controller::state() const noexcept {
+    const ControllerState now = activity();
+    return now == ControllerState::idle && lines_.lines() > 0 ? ControllerState::run : now;
+}
+
+ControllerState Controller::activity() const noexcept {
     if (sleep_) {
         return ControllerState::sleep;
     }
@@ -172,7 +179,7 @@ ControllerState Controller::state() const noexcept {
     if (tool_) {
         return ControllerState::tool;
     }
-    const bool busy = task_ != Task::none || lines_.lines() > 0 || !motion_->exhausted() || !reading_.stands;
+    const bool busy = task_ != Task::none || !motion_->exhausted() || !reading_.stands;
     return busy ? ControllerState::run : ControllerState::idle;
 }
 

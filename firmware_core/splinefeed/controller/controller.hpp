@@ -55,7 +55,9 @@ public:
     /// Moves what is to be said out; returns how many characters.
     std::size_t take_answers(std::span<char> out) noexcept { return answers_.take(out); }
 
-    /// Executes lines, and writes the next segment. `starved`: there is none now.
+    /// Executes lines as far as that is possible without a segment: for a machine that has no room for one.
+    void execute(std::uint32_t now_ms) noexcept;
+    /// The same, and writes the next segment. `starved`: there is none now.
     /// @param dry  the machine moves and has hardly any segment left
     Pull next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept;
 
@@ -77,6 +79,7 @@ private:
     void open_door() noexcept;
     void set_overrides() noexcept;
     void write_status(bool all) noexcept;
+    [[nodiscard]] ControllerState activity() const noexcept;
     [[nodiscard]] int part_of_state() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
     [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_ || sleep_; }
@@ -87,7 +90,8 @@ private:
     void execute_block(std::string_view text) noexcept;
     void refuse(LineError error) noexcept;
     void refuse_block(const BlockStatus& status) noexcept;
-    void accept() noexcept { answers_.put("ok").end_line(); }
+    void accept() noexcept;
+    [[nodiscard]] bool answers_nobody() noexcept;
 
     // controller_motion.cpp
     [[nodiscard]] bool step() noexcept;
@@ -125,6 +129,7 @@ private:
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
     std::size_t refused_lines_ = 0; // that had come when one was refused
+    std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
     LineError refusal_ = LineError::none;
     Task task_ = Task::none;
     Ending ending_ = Ending::none;

@@ -57,7 +57,7 @@ struct DollarCommands {
             c.say("Disabled");
             c.accept();
             c.begin_ending(Controller::Ending::reset);
-        } else if (c.state() == ControllerState::idle) {
+        } else if (c.activity() == ControllerState::idle) {
             c.check_ = true;
             c.say("Enabled");
             c.accept();
@@ -87,8 +87,8 @@ struct DollarCommands {
         for (; !rest.at_end() && letters.index(rest.peek()) >= 0; rest.step()) {
             axes |= 1U << static_cast<unsigned>(letters.index(rest.peek()));
         }
-        const bool ready = c.state() == ControllerState::idle ||
-                           (c.state() == ControllerState::alarm && !row_of(c.alarm_).needs_reset);
+        const bool ready = c.activity() == ControllerState::idle ||
+                           (c.activity() == ControllerState::alarm && !row_of(c.alarm_).needs_reset);
         if (!rest.at_end()) {
             c.refuse(LineError::unknown_command);
         } else if (!c.settings_->homes) {
@@ -102,11 +102,9 @@ struct DollarCommands {
         }
     }
     static void jog(Controller& c, TextCursor& rest) noexcept {
-        const ControllerState state = c.state();
-        const bool alone = c.motion_->exhausted() && c.stands() && c.ending_ == Controller::Ending::none;
-        const bool ready = state == ControllerState::jog ||
-                           ((state == ControllerState::run || state == ControllerState::idle) && alone) ||
-                           (state == ControllerState::tool && alone);
+        const ControllerState state = c.activity();
+        const bool ready = state == ControllerState::jog || state == ControllerState::idle ||
+                           (state == ControllerState::tool && c.motion_->exhausted() && c.stands());
         if (!ready || c.check_) {
             c.refuse(c.is_locked() ? LineError::locked : LineError::not_now);
             return;
@@ -123,7 +121,7 @@ struct DollarCommands {
         c.task_ = Controller::Task::jog;
     }
     static void sleep(Controller& c, TextCursor& /*rest*/) noexcept {
-        if (c.state() != ControllerState::idle && c.state() != ControllerState::alarm) {
+        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
             c.refuse(LineError::not_now);
             return;
         }
@@ -134,7 +132,7 @@ struct DollarCommands {
         c.machine_->enable(false);
     }
     static void clear_offsets(Controller& c, TextCursor& /*rest*/) noexcept {
-        if (c.state() != ControllerState::idle && c.state() != ControllerState::alarm) {
+        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
             c.refuse(LineError::not_now);
             return;
         }
@@ -242,7 +240,22 @@ void Controller::execute_block(std::string_view text) noexcept {
     }
 }
 
+bool Controller::answers_nobody() noexcept {
+    const bool nobody = of_another_ > 0;
+    of_another_ -= nobody ? 1U : 0U;
+    return nobody;
+}
+
+void Controller::accept() noexcept {
+    if (!answers_nobody()) {
+        answers_.put("ok").end_line();
+    }
+}
+
 void Controller::refuse(LineError error) noexcept {
+    if (answers_nobody()) {
+        return;
+    }
     answers_.put("error:").integer(static_cast<std::int64_t>(error)).end_line();
 }
 

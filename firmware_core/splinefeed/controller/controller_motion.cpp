@@ -14,11 +14,19 @@ bool stops_itself(Alarm alarm) noexcept {
 
 } // namespace
 
-Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept {
+void Controller::execute(std::uint32_t now_ms) noexcept {
     now_ms_ = now_ms;
     reading_ = machine_->read();
     watch();
     settle();
+    do {
+        while (step()) {
+        }
+    } while (motion_->look_ahead());
+}
+
+Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept {
+    execute(now_ms);
     for (;;) {
         bool changed = false;
         while (step()) {
@@ -373,7 +381,7 @@ void Controller::end_reset() noexcept {
     locked_ = locked_ || row_of(alarm_).stays;
     alarm_ = Alarm::none;
     overrides_ = {};
-    refused_lines_ = 0;
+    refused_lines_ = of_another_ = 0;
     line_number_ = 0;
     check_ = sleep_ = tool_ = door_ = closes_ = false;
     status_.refresh();

@@ -53,6 +53,8 @@ public:
     /// The next segment. @param late  the input pauses, and the machine cannot wait: the motion goes on to the end of
     /// what is known, and stands there
     virtual Pull next(FeedSegment& out, bool late) noexcept = 0;
+    /// Plans ahead what the path has, so that it takes more moves. Returns whether it does so now, and did not before.
+    virtual bool look_ahead() noexcept = 0;
     /// Whether all that is known has been delivered, to standstill.
     [[nodiscard]] virtual bool exhausted() const noexcept = 0;
     /// Whether the last segment ended at rest.

@@ -104,6 +104,24 @@ bool ScalarMotion<S>::is_due_at_once() const noexcept {
             kind == EventKind::offsets_changed);
 }
 
+// item_ is the next move to wait.
+template <Scalar S>
+void ScalarMotion<S>::take_move() noexcept {
+    const bool rapid = item_.move == MoveKind::rapid;
+    held_ = item_.element;
+    held_.feed_mm_s = rapid ? rapid_feed<S> : held_.feed_mm_s;
+    if (!rapid && !(held_.max_feed_mm_s > S{})) {
+        held_.max_feed_mm_s = to_scalar<S>(settings_->max_feed_mm_s);
+    }
+    for (const unsigned k : indices(limits_->axes)) {
+        const bool turns = (settings_->program.rotary_axes >> k & 1U) != 0 && held_.to[k] != here_[k];
+        held_.tolerance_mm =
+            turns ? smaller(held_.tolerance_mm, to_scalar<S>(settings_->rotary_tolerance_deg)) : held_.tolerance_mm;
+    }
+    here_ = held_.to;
+    holds_ = true;
+}
+
 template <Scalar S>
 bool ScalarMotion<S>::leaves_travel(const PerAxis<Position>& place) const noexcept {
     for (const unsigned k : indices(limits_->axes)) {
@@ -135,10 +153,7 @@ LineProgress ScalarMotion<S>::pass_move() noexcept {
         refused_ = true;
         return LineProgress::done;
     }
-    held_ = item_.element;
-    held_.feed_mm_s = item_.move == MoveKind::rapid ? rapid_feed<S> : held_.feed_mm_s;
-    here_ = held_.to;
-    holds_ = true;
+    take_move();
     return LineProgress::done;
 }
 
@@ -193,9 +208,7 @@ void ScalarMotion<S>::leave_out() noexcept {
 
 template <Scalar S>
 void ScalarMotion<S>::begin_waiting() noexcept {
-    held_ = item_.element;
-    here_ = held_.to;
-    holds_ = true;
+    take_move();
     release(true);
 }
 
@@ -238,7 +251,7 @@ LineProgress ScalarMotion<S>::pass_jog() noexcept {
             }
             const PerAxis<Position> to = item_.element.to;
             cut(item_.element);
-            item_.element.max_feed_mm_s = item_.element.feed_mm_s;
+            item_.element.max_feed_mm_s = item_.element.feed_mm_s; // no override makes it faster
             if (item_.element.to != to) {
                 interpreter_.start(item_.element.to);
             }
@@ -266,6 +279,13 @@ bool ScalarMotion<S>::take_event(ProgramEvent& out) noexcept {
         events_[i] = events_[i + 1];
     }
     return true;
+}
+
+template <Scalar S>
+bool ScalarMotion<S>::look_ahead() noexcept {
+    const bool full = !path_->has_room();
+    trajectory_.measure_ahead(WorkBudget::unlimited);
+    return full && path_->has_room();
 }
 
 template <Scalar S>

@@ -36,6 +36,7 @@ public:
     bool take_event(ProgramEvent& out) noexcept override;
 
     Pull next(FeedSegment& out, bool late) noexcept override;
+    bool look_ahead() noexcept override;
     [[nodiscard]] bool exhausted() const noexcept override { return exhausted_ && !holds_; }
     [[nodiscard]] bool at_rest() const noexcept override { return at_rest_; }
     [[nodiscard]] bool left_travel() const noexcept override {
@@ -63,6 +64,7 @@ private:
     LineProgress pass_item() noexcept;
     LineProgress pass_move() noexcept;
     bool release(bool stops) noexcept;
+    void take_move() noexcept;
     [[nodiscard]] bool leaves_travel(const PerAxis<Position>& place) const noexcept;
     void cut(PathElement<S>& element) const noexcept;
 
