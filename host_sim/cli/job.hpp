@@ -5,11 +5,12 @@
 #include "host_sim/cli/link_command.hpp"
 #include "host_sim/drive/drive_command.hpp"
 #include "host_sim/run/runner.hpp"
+#include "host_sim/serve/serve_command.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, check, curve, surface, drive, link };
+enum class Command { run, plan, check, curve, surface, drive, link, serve };
 
 struct Job {
     Command command = Command::run;
@@ -17,6 +18,7 @@ struct Job {
     SurfaceArguments surface;
     DriveArguments drive;
     LinkArguments link;
+    ServeArguments serve;
 };
 
 /// Returns the exit status: 0 done, 1 the machine did not finish (reported on standard error). Throws InputError,

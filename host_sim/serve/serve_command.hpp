@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// ServeArguments: the options of `splinefeed serve` as typed, and the command.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace splinefeed::host {
+
+/// No value: not given.
+struct ServeArguments {
+    std::string machine; ///< empty: the default machine
+    std::optional<std::string> tcp;
+    std::optional<std::string> pty;
+    std::optional<std::string> state;
+};
+
+/// Serves senders until it is interrupted; then the machine stands. Returns the exit status. Throws UsageError,
+/// InputError, OutputError.
+[[nodiscard]] int run_serve(const ServeArguments& arguments);
+
+} // namespace splinefeed::host
