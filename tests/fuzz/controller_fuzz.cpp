@@ -65,6 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         return 0;
     }
+    tool.send("\r"); // a comment that has no end would hide what follows
+    ++lines;
     for (int s = 0; s < 40 && answers_of(tool.text) < lines; ++s) {
         tool.send("~");
         for (int ms = 0; ms < 1000; ++ms) {
