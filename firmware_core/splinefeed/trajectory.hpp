@@ -95,6 +95,8 @@ public:
     /// Upper limit of the feed on top of the program and of the override, which may change while the machine moves; 0
     /// stops the motion. From 65,535 mm/s on there is none, as at the beginning. Resolution: 2^-16 mm/s.
     void limit_feed(S mm_s) noexcept { steering().limit_feed(mm_s); }
+    /// Factor of the largest speed of moves with rapid_feed. Values outside 1/128 to 1 are limited to that range.
+    void override_rapids(S ratio) noexcept { steering().override_rapids(ratio); }
     /// Brakes to standstill on the path, as hard as the axes allow.
     void hold() noexcept { steering().hold(); }
     /// Continues from where the motion was held. If the machine is still braking, it accelerates again at once.

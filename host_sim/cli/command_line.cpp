@@ -38,7 +38,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 bool takes_no_input(const CLI::App& app) {
-    return app.get_name() == "drive" || app.get_name() == "link";
+    return app.get_name() == "drive" || app.get_name() == "link" || app.get_name() == "serve";
 }
 
 // CLI11 would take -machine for -m achine.
@@ -169,8 +169,8 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                            : SummaryKind::text;
 }
 
-constexpr std::array<std::string_view, 8> commands{"run",     "plan",  "check", "curve",
-                                                   "surface", "drive", "link",  "machine"};
+constexpr std::array<std::string_view, 9> commands{"run",   "plan", "check",   "curve", "surface",
+                                                   "drive", "link", "machine", "serve"};
 
 // What stands in the place of a command, or before it. @param command  the one that is meant
 [[noreturn]] void refuse_without_command(const std::vector<std::string>& words, std::string_view command) {
@@ -270,8 +270,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
     }
     if (takes_no_input(command)) {
-        job.command = command.get_name() == "drive" ? Command::drive : Command::link;
-        job.link.machine = job.run.machine;
+        job.command = command.get_name() == "drive"  ? Command::drive
+                      : command.get_name() == "link" ? Command::link
+                                                     : Command::serve;
+        job.link.machine = job.serve.machine = job.run.machine;
         return job;
     }
     if (job.run.path.input.empty()) {

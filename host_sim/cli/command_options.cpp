@@ -223,6 +223,14 @@ void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
     app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
 }
 
+void add_serve_options(CLI::App& app, ServeArguments& arguments, Typed& typed) {
+    add_machine(app, typed.machine, arguments.settings);
+    app.add_option("--tcp", arguments.tcp, "127.0.0.1:PORT: where senders connect; port 0: a free one");
+    app.add_option("--pty", arguments.pty, "FILE: a link to a pseudo terminal, a serial port for senders");
+    app.add_option("--state", arguments.state,
+                   "S.json: where the machine stands, and work offsets, from one session to the next");
+}
+
 void add_check(CLI::App& app, Job& job, Typed& typed) {
     CLI::App* const check =
         app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
@@ -308,6 +316,12 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_link_options(*link, job.link, typed);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
+    CLI::App* const serve = app.add_subcommand("serve", "Operate the simulated machine from a sender of G-code (grbl)");
+    add_serve_options(*serve, job.serve, typed);
+    serve->footer(
+        "Example: splinefeed serve -m three_axis.toml --tcp 127.0.0.1:2300 --pty /tmp/machine\n"
+        "It prints one line for each place. With a terminal as its input it takes lines and words there: type "
+        "help. Ctrl-C brakes and ends it, a second one stops at once.");
     for (CLI::App* const command : app.get_subcommands([](CLI::App* /*command*/) { return true; })) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name(""); // the descriptions say what a value may be

@@ -17,6 +17,7 @@ int carry_out(const Job& job) {
     case Command::drive: return run_drive(job.drive);
     case Command::link: return report_link(job.link);
     case Command::machine: return check_machine(job.run.path.input);
+    case Command::serve: return run_serve(job.serve);
     }
     return 1;
 }

@@ -6,11 +6,12 @@
 #include "host_sim/cli/machine_command.hpp"
 #include "host_sim/drive/drive_command.hpp"
 #include "host_sim/run/runner.hpp"
+#include "host_sim/serve/serve_command.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, check, curve, surface, drive, link, machine };
+enum class Command { run, plan, check, curve, surface, drive, link, machine, serve };
 
 struct Job {
     Command command = Command::run;
@@ -18,6 +19,7 @@ struct Job {
     SurfaceArguments surface;
     DriveArguments drive;
     LinkArguments link;
+    ServeArguments serve;
 };
 
 /// Returns the exit status: 0 done, 1 the machine did not finish (reported on standard error). Throws InputError,

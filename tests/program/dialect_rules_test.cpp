@@ -129,6 +129,14 @@ TEST_CASE("comments that are not closed", "[program][dialects]") {
     CHECK(text(Dialect::grbl, "F60 G1 X1 (X5\n(a (b) X2") == "feed 1 0 0\nfeed 2 0 0");
 }
 
+TEST_CASE("the units of a block are those of its F in grbl", "[program][dialects]") {
+    for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl, Dialect::marlin, Dialect::fanuc}) {
+        GcodeRun<double> run(in(dialect));
+        run.run("G1 F60\nG20 G1 F10");
+        CHECK(run.interpreter().modal().feed.raw == (dialect == Dialect::grbl ? 254 : 10) * Decimal::one);
+    }
+}
+
 TEST_CASE("G53 under G91 is absolute in grbl", "[program][dialects]") {
     CHECK(text(Dialect::grbl, "G91\nX5\nG0 G53 X1\nX1") == "rapid 5 0 0\nrapid 1 0 0\nrapid 2 0 0");
     CHECK(error(Dialect::linuxcnc, "G91", "G0 G53 X1") == ProgramError::g53_unsuited);

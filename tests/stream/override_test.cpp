@@ -78,3 +78,42 @@ TEMPLATE_TEST_CASE("an upper limit of the feed is followed while the machine mov
         CHECK(speed(950) == 0.0);
     }
 }
+
+TEMPLATE_TEST_CASE("rapids have an override of their own, also while the machine moves", "[stream][steering]", double,
+                   Fixed) {
+    MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
+    machine.axis[0].max_jerk_mm_s3 = GENERATE(0.0, 20000.0);
+    BezierPath path;
+    for (const double feed : {20.0, -1.0, 20.0}) { // a feed, a rapid, a feed; each 40 mm
+        path.push_back(line_shape(1, 3, {40.0}));
+        path.back().feed_mm_s = feed;
+    }
+    struct Fastest {
+        Real feed = 0.0L;
+        Real rapid = 0.0L;
+    };
+    const auto fastest = [&](const std::vector<Event>& events, Real rapid_from) {
+        const SteeredRun run = run_steered<TestType>(path, machine, 64, events);
+        REQUIRE(run.finished);
+        require_limits(run, machine, 0.0L);
+        Fastest out;
+        for (const FeedSegment& segment : run.segments) {
+            const Real at = static_cast<Real>(segment.end[0]) / units_per_mm(machine.axis[0]);
+            const Real v = static_cast<Real>(segment.end_velocity[0]) / (units_per_mm(machine.axis[0]) * 1e-3L);
+            if (at < 40.0L || at > 80.0L) {
+                out.feed = std::max(out.feed, v);
+            } else if (at > rapid_from) {
+                out.rapid = std::max(out.rapid, v);
+            }
+        }
+        return out;
+    };
+    const Fastest plain = fastest({}, 0.0L);
+    CHECK(plain.rapid > 80.0L);
+    const Fastest slow = fastest({{0, Order::override_rapids, 0.25}, {0, Order::override_feed, 2.0}}, 0.0L);
+    CHECK(slow.rapid < 25.1L); // beside a feed that is faster than the rapid
+    CHECK(slow.feed == Approx(40.0).epsilon(1e-2));
+    const Fastest later = fastest({{2250, Order::override_rapids, 0.25}}, 70.0L);
+    CHECK(later.rapid < 25.1L);
+    CHECK(later.feed < 20.2L); // samples are averages, also where the feed changes
+}

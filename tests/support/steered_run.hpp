@@ -10,7 +10,7 @@
 
 namespace splinefeed_test {
 
-enum class Order { hold, resume, abort, override_feed, limit_feed };
+enum class Order { hold, resume, abort, override_feed, limit_feed, override_rapids };
 
 /// What is asked for before a segment is made.
 struct Event {
@@ -34,6 +34,7 @@ void give(Trajectory<S>& trajectory, const Event& event) {
     case Order::hold: trajectory.hold(); break;
     case Order::resume: trajectory.resume(); break;
     case Order::abort: trajectory.abort(); break;
+    case Order::override_rapids: trajectory.override_rapids(from_double<S>(event.value)); break;
     case Order::override_feed: trajectory.override_feed(from_double<S>(event.value)); break;
     case Order::limit_feed: trajectory.limit_feed(from_double<S>(event.value)); break;
     }

@@ -34,7 +34,7 @@ TEST_CASE("the page of the command has every option of its help, and no other") 
     const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     const std::set<std::string> on_page = options_in(page, "`[| ");
     std::set<std::string> known{"--version"};
-    for (const char* command : {"run", "plan", "check", "curve", "surface", "link", "drive"}) {
+    for (const char* command : {"run", "plan", "check", "curve", "surface", "link", "drive", "serve"}) {
         const auto help = tool(std::string(command) + " --help");
         REQUIRE(help.status == 0);
         const std::set<std::string> options = options_in(help.output, " ,");

@@ -45,6 +45,9 @@ public:
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench). On a Cortex-M4F
     /// 5,000 to 6,000 instructions for a line, 14,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
+    /// Executes a jog: a line with axis words and F, and of G words G20, G21, G53, G90 and G91. It is a straight move
+    /// in PathMode::exact_path, and leaves no modes behind. Errors: as push(), and jog_word_unsuited.
+    BlockStatus push_jog(std::string_view text, std::uint32_t line_number) noexcept;
     /// The input has ended without M2: next() gives what cutter compensation holds back. Error: cutter_gouge.
     BlockStatus end_of_input() noexcept;
     /// After an error of push(), for whoever looks for further ones: the words that were understood take effect, and a
@@ -96,6 +99,7 @@ private:
 
     BlockStatus execute() noexcept;
     BlockStatus execute_words(const BlockUse& use) noexcept;
+    [[nodiscard]] BlockStatus check_jog() const noexcept; // jog_words.cpp
     void obey_modes() noexcept;
     BlockStatus execute_percent() noexcept;
     void plan_homing(std::uint32_t axes) noexcept;

@@ -28,6 +28,7 @@ struct DialectTable {
     static constexpr DialectRules grbl{
         .open_comments = true,
         .dollar_lines = true,
+        .units_before_feed = true,
         .g53_incremental = true,
         .free_third_offset = true,
         .speed_stops = false,

@@ -29,6 +29,7 @@ struct DialectRules {
     bool polar_words = false;   ///< @ and ^
     bool uvw_steps = false;     ///< U V W are steps along X Y Z, where the machine has no such axes
     // Words.
+    bool units_before_feed = false;     ///< G20 and G21 act on F of their own block
     bool lead_is_feed = false;          ///< F of G33 is the way of a turn
     bool extruder = false;              ///< E is an axis
     bool motion_beside_offsets = false; ///< G0 to G3 beside G28 and others are modes only

@@ -54,6 +54,9 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
         inverse_time = mode == 930;
         per_turn = mode == 950;
     }
+    if (block.has(CodeGroup::units) && rules_of(settings.dialect).units_before_feed) {
+        inches = block.code(CodeGroup::units) == 200;
+    }
     if (const BlockStatus status = apply_feed(block); !status.ok()) {
         return status;
     }

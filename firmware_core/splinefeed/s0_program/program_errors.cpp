@@ -157,6 +157,8 @@ constexpr Sentence<ProgramError> program_sentences[] = {
      "the first move behind G40 must be a straight line, and behind G41 and G42, too, with the tip of a lathe tool"},
     {ProgramError::cutter_far,
      "between two moves of a contour with cutter compensation there may be 7 other moves, dwells and events"},
+    {ProgramError::jog_word_unsuited,
+     "a jog has axis words and F, and of G words G20, G21, G53, G90 and G91; send the rest as a line of its own"},
     {ProgramError::block_pending, "the items of the block before have not been taken"},
 };
 

@@ -127,6 +127,7 @@ enum class ProgramError : std::uint8_t {
     cutter_gouge,
     cutter_exit,
     cutter_far,
+    jog_word_unsuited,
     block_pending,
 };
 

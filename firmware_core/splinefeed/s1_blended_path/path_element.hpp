@@ -44,7 +44,7 @@ struct PathElement {
     S tolerance_mm{};        ///< largest distance between the path and the moves, both ways; 0: the path is exact
     /// The same where short lines are joined into one curve; above tolerance_mm it is that; 0: they are not joined.
     S chain_tolerance_mm = from_integer<S>(100);
-    S feed_mm_s{};     ///< programmed feed; 0: the machine's
+    S feed_mm_s{};     ///< programmed feed; 0: the machine's; or rapid_feed
     S max_feed_mm_s{}; ///< upper limit for every feed override; 0: none
 
     [[nodiscard]] bool has_feed_of(const PathElement& other) const noexcept {

@@ -21,6 +21,10 @@ inline constexpr S negligible_units = literal<S>(1.0 / 16384.0);
 template <>
 inline constexpr float negligible_units<float> = 4.0F;
 
+/// As a programmed feed: as fast as the machine can, and subject to the override of rapids, not of feeds.
+template <Scalar S>
+inline constexpr S rapid_feed = from_integer<S>(-1);
+
 template <Scalar S>
 struct CurveSegment {
     int axes = 0;
@@ -29,7 +33,7 @@ struct CurveSegment {
     PerAxis<Position> origin{};
     PerAxis<Position> end{};         ///< the exact end point; meaningful if the machine stops at the end
     PerAxis<PerDegree<S>> control{}; ///< control[axis][i], offset of Bezier point i from origin
-    S feed_mm_s{};                   ///< programmed feed; 0: the machine's feed
+    S feed_mm_s{};                   ///< programmed feed; 0: the machine's feed; or rapid_feed
     S max_feed_mm_s{};               ///< upper limit for every feed override; 0: none
     bool stop_at_end = false;        ///< the feed is zero at the end (a corner)
     std::uint32_t waypoint = 0;      ///< index of the waypoint at its end (or index of the segment in a file), modulo

@@ -50,7 +50,13 @@ S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
 template <Scalar S>
 S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept {
     const S programmed = cell.feed_mm_s;
-    S feed = programmed > S{} ? limits_.usable_feed(programmed * wish.ratio) : limits_.feed_mm_s * wish.ratio;
+    S feed = limits_.feed_mm_s;
+    if (programmed < S{}) { // a rapid
+        const S slower = larger(cap_sq * (wish.rapids * wish.rapids), literal<S>(slowest_sq));
+        cap_sq = wish.rapids < from_integer<S>(1) ? slower : cap_sq;
+    } else {
+        feed = programmed > S{} ? limits_.usable_feed(programmed * wish.ratio) : feed * wish.ratio;
+    }
     if (wish.most_mm_s < feed) {
         feed = limits_.usable_feed(wish.most_mm_s);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steering: the requests of an operator to a running motion: feed override, upper limit of the feed, hold, resume,
-// abort.
+// Steering: the requests of an operator to a running motion: overrides of feed and rapids, an upper limit of the feed,
+// hold, resume, abort.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -22,8 +22,9 @@ enum class Activity : std::uint8_t {
 /// What an operator wants of the feed, on top of what the program says.
 template <Scalar S>
 struct FeedWish {
-    S ratio = from_integer<S>(1); ///< factor of the programmed feed
-    S most_mm_s = largest<S>();   ///< upper limit of the feed, whatever the program and the factor say
+    S ratio = from_integer<S>(1);  ///< factor of the programmed feed
+    S most_mm_s = largest<S>();    ///< upper limit of the feed, whatever the program and the factor say
+    S rapids = from_integer<S>(1); ///< factor of the largest speed of rapids, up to 1
 };
 
 /// The requests to a motion, and the part of them that the plan has taken over. Requests may come from another thread
@@ -44,6 +45,13 @@ public:
         asked_most_q16_.store(positive < from_integer<S>(unlimited_mm_s) ? to_q16(positive) : unlimited_q16,
                               std::memory_order_relaxed);
     }
+    /// Factor of the largest speed of moves with rapid_feed, 1/128 to 1 (other values are limited to that range). They
+    /// do not follow override_feed(), but for 0.
+    void override_rapids(S ratio) noexcept {
+        const S least = literal<S>(1.0 / 128.0);
+        asked_rapids_q30_.store(to_q30(ratio > least ? smaller(ratio, from_integer<S>(1)) : least),
+                                std::memory_order_relaxed);
+    }
     void hold() noexcept { asked_hold_.store(true, std::memory_order_relaxed); }
     void resume() noexcept { asked_hold_.store(false, std::memory_order_relaxed); }
     void abort() noexcept { asked_abort_.store(true, std::memory_order_relaxed); }
@@ -53,15 +61,18 @@ public:
     void poll() noexcept {
         const std::uint32_t ratio_q30 = asked_ratio_q30_.load(std::memory_order_relaxed);
         const std::uint32_t most_q16 = asked_most_q16_.load(std::memory_order_relaxed);
+        const std::uint32_t rapids_q30 = asked_rapids_q30_.load(std::memory_order_relaxed);
         const bool hold = asked_hold_.load(std::memory_order_relaxed);
         const bool abort = asked_abort_.load(std::memory_order_relaxed);
-        pending_ = pending_ || ratio_q30 != ratio_q30_ || most_q16 != most_q16_ || hold != hold_ || abort != abort_;
+        pending_ = pending_ || ratio_q30 != ratio_q30_ || most_q16 != most_q16_ || rapids_q30 != rapids_q30_ ||
+                   hold != hold_ || abort != abort_;
         ratio_q30_ = ratio_q30;
         most_q16_ = most_q16;
+        rapids_q30_ = rapids_q30;
         hold_ = hold;
         abort_ = abort;
     }
-    /// For a new program: ends an abort. The override stays, and so does a hold: only resume() ends it.
+    /// For a new program: ends an abort. The overrides stay, and so does a hold: only resume() ends it.
     void start() noexcept {
         asked_abort_.store(false, std::memory_order_relaxed);
         poll();
@@ -69,7 +80,8 @@ public:
     }
 
     [[nodiscard]] FeedWish<S> wish() const noexcept {
-        return {from_q30(ratio_q30_), most_q16_ == unlimited_q16 ? largest<S>() : from_q16(most_q16_)};
+        return {from_q30(ratio_q30_), most_q16_ == unlimited_q16 ? largest<S>() : from_q16(most_q16_),
+                from_q30(rapids_q30_)};
     }
     /// Whether the motion has to come to standstill, or to stay there.
     [[nodiscard]] bool stops() const noexcept { return hold_ || abort_ || ratio_q30_ == 0 || most_q16_ == 0; }
@@ -115,8 +127,10 @@ private:
 
     std::uint32_t ratio_q30_ = one_q30;
     std::uint32_t most_q16_ = unlimited_q16;
+    std::uint32_t rapids_q30_ = one_q30;
     std::atomic<std::uint32_t> asked_ratio_q30_{one_q30};
     std::atomic<std::uint32_t> asked_most_q16_{unlimited_q16};
+    std::atomic<std::uint32_t> asked_rapids_q30_{one_q30};
     std::atomic<bool> asked_hold_{false};
     std::atomic<bool> asked_abort_{false};
     bool hold_ = false;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// ControlledMachine: what a controller knows of its machine, and orders beside segments.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/controller/alarm.hpp"
+#include "splinefeed/number/position.hpp"
+#include "splinefeed/s0_program/program_event.hpp"
+
+namespace splinefeed {
+
+enum class HomingPhase : std::uint8_t { none, busy, done, failed };
+
+/// Inputs as the status shows them, by bits; those of the axes' limit switches are bits 0 to 5.
+struct InputBits {
+    static constexpr std::uint32_t probe = 1U << 8;
+    static constexpr std::uint32_t door = 1U << 9;
+    static constexpr std::uint32_t hold = 1U << 10;
+    static constexpr std::uint32_t reset = 1U << 11;
+    static constexpr std::uint32_t emergency_stop = 1U << 12;
+};
+
+/// The machine at an instant.
+struct MachineReading {
+    PerAxis<Position> position{}; ///< where the axes are
+    bool stands = true;           ///< all segments that were submitted are executed, and nothing moves
+    bool known = true;            ///< the position is that of the machine; false: it has to home
+    bool spindle_ready = true;    ///< the spindle turns as it was told, or stands
+    std::uint32_t inputs = 0;     ///< those that are active, InputBits
+    bool touched = false;         ///< the probe has changed as watch_probe() said, at touched_at
+    PerAxis<Position> touched_at{};
+    HomingPhase homing = HomingPhase::none;
+    Alarm alarm = Alarm::none;       ///< as long as its cause lasts
+    std::string_view alarm_sentence; ///< what the machine says of it; empty: what row_of() says
+    Decimal feed_mm_min{};           ///< speed along the path
+};
+
+class ControlledMachine {
+public:
+    [[nodiscard]] virtual MachineReading read() noexcept = 0;
+    /// Spindle, coolant, outputs: at once, or when the segments that were submitted before are executed, as the event's
+    /// kind says. What it does not have it ignores.
+    virtual void obey(const ProgramEvent& event) noexcept = 0;
+    /// From now on the next contact, or the loss of it, is to be noted with its place.
+    virtual void watch_probe(bool away) noexcept = 0;
+    /// Begins homing; read() says how it goes. @param axes  bits of the axes
+    virtual void home(std::uint32_t axes) noexcept = 0;
+    /// Stops all axes as hard as it can, off the path: segments that it has are forgotten.
+    virtual void quick_stop() noexcept = 0;
+    /// Switches the drives. @pre the machine stands
+    virtual void enable(bool on) noexcept = 0;
+    /// Tries to end what `alarm` reports: faults of drives.
+    virtual void reset_faults() noexcept = 0;
+    /// The operator's offsets have changed and are to be kept.
+    virtual void offsets_changed() noexcept = 0;
+
+protected:
+    ControlledMachine() = default;
+    ControlledMachine(const ControlledMachine&) = default;
+    ControlledMachine& operator=(const ControlledMachine&) = default;
+    ~ControlledMachine() = default;
+};
+
+} // namespace splinefeed

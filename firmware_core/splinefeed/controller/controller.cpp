@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/controller/controller.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::size_t report_room = 256; // reports are left out before answers are
+constexpr int most_free_moves = 100;
+
+} // namespace
+
+Controller::Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
+                       Memory memory) noexcept
+    : settings_(&settings), motion_(&motion), machine_(&machine), lines_(memory.lines), answers_(memory.answers),
+      spindle_(machine), reading_(machine.read()) {
+    SPLINEFEED_ASSERT(memory.answers.size() >= least_answers);
+    motion_->place(reading_.position);
+    locked_ = !reading_.known;
+}
+
+void Controller::greet() noexcept {
+    answers_.end_line().put("Grbl 1.1h ['$' for help]").end_line();
+    if (locked_ || sleep_) {
+        say("'$H'|'$X' to unlock");
+    }
+}
+
+void Controller::connect() noexcept {
+    answers_.clear();
+    lines_.drop_partial();
+    of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
+    status_.refresh();
+    greet();
+    if (held_) {
+        say("Held: '~' goes on, a reset ends the program");
+    }
+}
+
+void Controller::disconnect() noexcept {
+    lines_.drop_partial();
+    if (state() == ControllerState::run || state() == ControllerState::jog) {
+        hold();
+    }
+}
+
+void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept {
+    now_ms_ = now_ms;
+    byte_ms_ = bytes.empty() ? byte_ms_ : now_ms;
+    for (const char c : bytes) {
+        const RealtimeByte byte = realtime_byte(static_cast<std::uint8_t>(c));
+        const bool asks = c == '?' || c == '~'; // in a comment it is text
+        if (byte.kind == RealtimeKind::none || (asks && lines_.in_comment())) {
+            const std::size_t before = lines_.lines();
+            if (!lines_.add(c)) {
+                raise(Alarm::lines_lost);
+            }
+            line_ms_ = lines_.lines() != before ? now_ms : line_ms_;
+        } else {
+            act(byte);
+        }
+    }
+}
+
+void Controller::act(RealtimeByte byte) noexcept {
+    switch (byte.kind) {
+    case RealtimeKind::report: write_status(false); break;
+    case RealtimeKind::full_report: write_status(true); break;
+    case RealtimeKind::parser_report: write_modes(motion_->interpreter(), spindle_, answers_); break;
+    case RealtimeKind::hold: hold(); break;
+    case RealtimeKind::resume: resume(); break;
+    case RealtimeKind::reset: begin_ending(Ending::reset); break;
+    case RealtimeKind::stop: begin_ending(Ending::stop); break;
+    case RealtimeKind::door: open_door(); break;
+    case RealtimeKind::jog_cancel: cancel_jog(); break;
+    case RealtimeKind::spindle_stop:
+        if (held_ && stands()) {
+            spindle_.toggle_spindle();
+        }
+        break;
+    case RealtimeKind::flood: spindle_.toggle(EventKind::flood_on); break;
+    case RealtimeKind::mist: spindle_.toggle(EventKind::mist_on); break;
+    case RealtimeKind::feed_override:
+    case RealtimeKind::rapids_override:
+    case RealtimeKind::spindle_override:
+        if (overrides_.obey(byte)) {
+            set_overrides();
+        }
+        break;
+    case RealtimeKind::none:
+    case RealtimeKind::nothing: break;
+    }
+}
+
+// A jog keeps its own feed.
+void Controller::set_overrides() noexcept {
+    motion_->set_overrides(jogging_ ? 100 : overrides_.feed, overrides_.rapids);
+    if (spindle_.override_percent() != overrides_.spindle) {
+        spindle_.set_override(overrides_.spindle);
+    }
+}
+
+void Controller::hold() noexcept {
+    if (jogging_) {
+        cancel_jog();
+    } else if (!is_locked() && !check_ && ending_ == Ending::none && task_ != Task::home) {
+        held_ = true;
+        motion_->hold();
+    }
+}
+
+void Controller::resume() noexcept {
+    reading_ = machine_->read();
+    if (door_) {
+        if ((reading_.inputs & InputBits::door) != 0) {
+            say("The door is open: close it, then '~'");
+            return;
+        }
+        spindle_.restore();
+        closes_ = true;
+        return;
+    }
+    if (reading_.alarm != Alarm::none || ending_ != Ending::none) {
+        return;
+    }
+    tool_ = false;
+    if (held_) {
+        held_ = false;
+        spindle_.restore();
+        motion_->resume();
+    }
+}
+
+void Controller::open_door() noexcept {
+    if (door_ || is_locked() || check_) {
+        return;
+    }
+    if (task_ == Task::home) {
+        machine_->quick_stop();
+        raise(Alarm::homing_door);
+        return;
+    }
+    cancel_jog();
+    held_ = false;
+    door_ = true;
+    closes_ = false;
+    motion_->hold();
+    spindle_.suspend();
+}
+
+// A line that waits will be executed.
+ControllerState Controller::state() const noexcept {
+    const ControllerState now = activity();
+    return now == ControllerState::idle && lines_.lines() > 0 ? ControllerState::run : now;
+}
+
+ControllerState Controller::activity() const noexcept {
+    if (sleep_) {
+        return ControllerState::sleep;
+    }
+    if (task_ == Task::home) {
+        return ControllerState::home;
+    }
+    if (is_locked()) {
+        return ControllerState::alarm;
+    }
+    if (check_) {
+        return ControllerState::check;
+    }
+    if (door_) {
+        return ControllerState::door;
+    }
+    if (held_ || ending_ == Ending::reset || ending_ == Ending::stop) {
+        return ControllerState::hold;
+    }
+    if (jogging_) {
+        return ControllerState::jog;
+    }
+    if (tool_) {
+        return ControllerState::tool;
+    }
+    const bool busy = task_ != Task::none || !motion_->exhausted() || !reading_.stands;
+    return busy ? ControllerState::run : ControllerState::idle;
+}
+
+int Controller::part_of_state() const noexcept {
+    return closes_ ? 3 : stands() ? 0 : 1;
+}
+
+void Controller::write_status(bool all) noexcept {
+    if (answers_.room() < report_room) {
+        return;
+    }
+    reading_ = machine_->read();
+    StatusReport::Content content;
+    content.state = state();
+    content.part = part_of_state();
+    content.reading = &reading_;
+    content.offsets = &motion_->interpreter().offsets();
+    content.spindle = &spindle_;
+    content.overrides = overrides_;
+    content.free_moves = task_ == Task::line ? 0 : most_free_moves;
+    const auto most = static_cast<std::size_t>(settings_->receive_bytes);
+    content.free_bytes = lines_.room() < most ? lines_.room() : most;
+    status_.mask = sender_.report_mask;
+    status_.inches = sender_.inches;
+    status_.write(content, *settings_, all, answers_);
+}
+
+} // namespace splinefeed

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Controller: operates a machine by the protocol of grbl 1.1: bytes in, bytes and feed segments out.
+#pragma once
+
+#include "splinefeed/controller/answer_text.hpp"
+#include "splinefeed/controller/controlled_machine.hpp"
+#include "splinefeed/controller/controller_state.hpp"
+#include "splinefeed/controller/line_error.hpp"
+#include "splinefeed/controller/line_motion.hpp"
+#include "splinefeed/controller/line_store.hpp"
+#include "splinefeed/controller/overrides.hpp"
+#include "splinefeed/controller/query_answers.hpp"
+#include "splinefeed/controller/setting_list.hpp"
+#include "splinefeed/controller/spindle_orders.hpp"
+#include "splinefeed/controller/status_report.hpp"
+
+namespace splinefeed {
+
+/// No I/O, no heap, no clock of its own. Call it from one thread:
+///
+///     controller.connect();
+///     for (;;) {
+///         controller.receive(bytes, now_ms);           // what has come; a stop acts at once
+///         while (port_has_room && controller.next(segment, runs_dry, now_ms) == Pull::item) port.submit(segment);
+///         transport.write(controller.take_answers(buffer));
+///     }
+///
+/// Each line gets exactly one "ok" or "error:n", in order; a reset forgets those that are due. All else that it says is
+/// in [ ] or < >, or is an alarm. A line is answered when the interpreter has taken it; what needs the machine at rest,
+/// when that is done. Behind a refused line those that had come already are refused, too, and the motion is held. Times
+/// are milliseconds of any clock, and wrap.
+class Controller {
+public:
+    static constexpr std::uint32_t pause_ms = 100;    ///< a motion begins if the input pauses for so long
+    static constexpr std::uint32_t jog_pause_ms = 20; ///< the same for a jog
+
+    struct Memory {
+        std::span<char> lines;   ///< at least ControllerSettings::receive_bytes
+        std::span<char> answers; ///< at least least_answers
+    };
+    static constexpr std::size_t least_answers = 4096;
+
+    /// All arguments must outlive it.
+    Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
+               Memory memory) noexcept;
+
+    /// A sender connects: what was still to be said is forgotten, and it is greeted.
+    void connect() noexcept;
+    /// It has gone: a jog ends, and a program is held on the path.
+    void disconnect() noexcept;
+    /// What it has sent. Lines wait until next() executes them.
+    void receive(std::string_view bytes, std::uint32_t now_ms) noexcept;
+    /// A byte that acts at once, from whoever may stop the machine.
+    void act(RealtimeByte byte) noexcept;
+    /// Moves what is to be said out; returns how many characters.
+    std::size_t take_answers(std::span<char> out) noexcept { return answers_.take(out); }
+
+    /// Executes lines as far as that is possible without a segment: for a machine that has no room for one.
+    void execute(std::uint32_t now_ms) noexcept;
+    /// The same, and writes the next segment. `starved`: there is none now.
+    /// @param dry  the machine moves and has hardly any segment left
+    Pull next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept;
+
+    [[nodiscard]] ControllerState state() const noexcept;
+    [[nodiscard]] Alarm alarm() const noexcept { return alarm_; }
+
+private:
+    friend struct DollarCommands;
+
+    /// What is done for a line that was taken.
+    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, probe, home };
+    /// Why the motion comes to its end.
+    enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
+
+    // controller.cpp
+    void greet() noexcept;
+    void hold() noexcept;
+    void resume() noexcept;
+    void open_door() noexcept;
+    void set_overrides() noexcept;
+    void write_status(bool all) noexcept;
+    [[nodiscard]] ControllerState activity() const noexcept;
+    [[nodiscard]] int part_of_state() const noexcept;
+    [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
+    [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_ || sleep_; }
+    void say(std::string_view text) noexcept { answers_.put("[MSG:").put(text).put(']').end_line(); }
+
+    // controller_lines.cpp
+    void execute_line() noexcept;
+    void execute_block(std::string_view text) noexcept;
+    void refuse(LineError error) noexcept;
+    void refuse_block(const BlockStatus& status) noexcept;
+    void accept() noexcept;
+    [[nodiscard]] bool answers_nobody() noexcept;
+
+    // controller_motion.cpp
+    [[nodiscard]] bool step() noexcept;
+    [[nodiscard]] bool go_on() noexcept;
+    [[nodiscard]] bool go_on(LineProgress progress) noexcept;
+    [[nodiscard]] bool carry_out() noexcept;
+    void carry_out(const ProgramEvent& event) noexcept;
+    void end_task() noexcept;
+    void begin_probe() noexcept;
+    [[nodiscard]] bool finish_probe() noexcept;
+    [[nodiscard]] bool finish_home() noexcept;
+    [[nodiscard]] bool is_late(bool dry) const noexcept;
+    void watch() noexcept;
+    void begin_ending(Ending ending) noexcept;
+    void settle() noexcept;
+    void end_reset() noexcept;
+    void cancel_jog() noexcept;
+    void raise(Alarm alarm, std::string_view sentence = {}) noexcept;
+
+    const ControllerSettings* settings_;
+    LineMotion* motion_;
+    ControlledMachine* machine_;
+    LineStore lines_;
+    AnswerText answers_;
+    SpindleOrders spindle_;
+    Overrides overrides_{};
+    SenderSettings sender_{};
+    StatusReport status_{};
+    ProbeResult probe_{};
+    MachineReading reading_{};
+    StoredLine line_{};
+    std::uint32_t now_ms_ = 0;
+    std::uint32_t byte_ms_ = 0;  // when the last byte came
+    std::uint32_t line_ms_ = 0;  // when the last line came
+    std::uint32_t until_ms_ = 0; // end of a dwell
+    std::uint32_t line_number_ = 0;
+    std::size_t refused_lines_ = 0; // that had come when one was refused
+    std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
+    LineError refusal_ = LineError::none;
+    Task task_ = Task::none;
+    Ending ending_ = Ending::none;
+    Alarm alarm_ = Alarm::none;
+    bool locked_ = false; // until $H or $X, without an alarm
+    bool quick_ = false;  // the machine stops off the path
+    bool held_ = false;
+    bool door_ = false;
+    bool closes_ = false; // the door's hold ends when the spindle has its speed
+    bool check_ = false;
+    bool sleep_ = false;
+    bool tool_ = false;
+    bool jogging_ = false;
+    bool touched_ = false; // the probe's move ends
+    bool rests_ = false;   // the line's next item needs the machine at rest
+};
+
+} // namespace splinefeed

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// Controller: lines.
+#include "splinefeed/controller/controller.hpp"
+
+#include "splinefeed/s0_program/axis_letters.hpp"
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+/// The `$` commands, by their words.
+struct DollarCommands {
+    struct Row {
+        std::string_view word; // in lower case
+        bool whole;            // nothing stands behind it
+        void (*run)(Controller&, TextCursor&);
+    };
+
+    static void help(Controller& c, TextCursor& /*rest*/) noexcept {
+        c.answers_.put("[HLP:$$ $# $G $I $N $x=val $J=line $SLP $C $X $H $RST=# ~ ! ? ctrl-x]").end_line();
+        c.accept();
+    }
+    static void settings(Controller& c, TextCursor& /*rest*/) noexcept {
+        SettingList(*c.settings_, c.sender_).write(c.answers_);
+        c.accept();
+    }
+    static void offsets(Controller& c, TextCursor& /*rest*/) noexcept {
+        write_offsets(c.motion_->interpreter().offsets(), c.probe_, c.settings_->program, c.sender_.inches, c.answers_);
+        c.accept();
+    }
+    static void modes(Controller& c, TextCursor& /*rest*/) noexcept {
+        write_modes(c.motion_->interpreter(), c.spindle_, c.answers_);
+        c.accept();
+    }
+    static void build(Controller& c, TextCursor& rest) noexcept {
+        const bool axes = rest.take('+');
+        if (!rest.at_end()) {
+            disabled(c, rest);
+            return;
+        }
+        write_build(*c.settings_, axes, c.answers_);
+        c.accept();
+    }
+    static void startup(Controller& c, TextCursor& rest) noexcept {
+        if (!rest.at_end()) {
+            disabled(c, rest);
+            return;
+        }
+        c.answers_.put("$N0=").end_line().put("$N1=").end_line();
+        c.accept();
+    }
+    static void disabled(Controller& c, TextCursor& /*rest*/) noexcept {
+        c.say("The machine file states this; nothing is written from here");
+        c.refuse(LineError::setting_disabled);
+    }
+    static void check(Controller& c, TextCursor& /*rest*/) noexcept {
+        if (c.check_) {
+            c.say("Disabled");
+            c.accept();
+            c.begin_ending(Controller::Ending::reset);
+        } else if (c.activity() == ControllerState::idle) {
+            c.check_ = true;
+            c.say("Enabled");
+            c.accept();
+        } else {
+            c.refuse(LineError::not_now);
+        }
+    }
+    static void unlock(Controller& c, TextCursor& /*rest*/) noexcept {
+        if (c.reading_.alarm != Alarm::none) {
+            c.say("The cause of the alarm lasts: end it, then reset");
+            c.refuse(c.reading_.alarm == Alarm::emergency_stop ? LineError::emergency_stop : LineError::locked);
+        } else if (c.sleep_ || row_of(c.alarm_).needs_reset) {
+            c.say("Reset to continue");
+            c.refuse(LineError::locked);
+        } else {
+            if (c.is_locked()) {
+                c.say("Caution: Unlocked");
+            }
+            c.alarm_ = Alarm::none;
+            c.locked_ = false;
+            c.accept();
+        }
+    }
+    static void home(Controller& c, TextCursor& rest) noexcept {
+        const AxisLetters letters(c.settings_->program);
+        std::uint32_t axes = 0;
+        for (; !rest.at_end() && letters.index(rest.peek()) >= 0; rest.step()) {
+            axes |= 1U << static_cast<unsigned>(letters.index(rest.peek()));
+        }
+        const bool ready = c.activity() == ControllerState::idle ||
+                           (c.activity() == ControllerState::alarm && !row_of(c.alarm_).needs_reset);
+        if (!rest.at_end()) {
+            c.refuse(LineError::unknown_command);
+        } else if (!c.settings_->homes) {
+            c.say("No axis of the machine file has a home");
+            c.refuse(LineError::no_homing);
+        } else if (!ready || c.reading_.alarm != Alarm::none) {
+            c.refuse(LineError::not_now);
+        } else {
+            c.task_ = Controller::Task::home;
+            c.machine_->home(axes != 0 ? axes : (1U << static_cast<unsigned>(letters.count())) - 1U);
+        }
+    }
+    static void jog(Controller& c, TextCursor& rest) noexcept {
+        const ControllerState state = c.activity();
+        const bool ready = state == ControllerState::jog || state == ControllerState::idle ||
+                           (state == ControllerState::tool && c.motion_->exhausted() && c.stands());
+        if (!ready || c.check_) {
+            c.refuse(c.is_locked() ? LineError::locked : LineError::not_now);
+            return;
+        }
+        const std::string_view text = rest.part(rest.at(), rest.text().size());
+        BlockStatus status = c.motion_->interpreter().push_jog(text, c.line_number_);
+        if (!status.ok()) {
+            status.column = static_cast<std::uint16_t>(status.column > 0 ? status.column + rest.at() : 0);
+            c.refuse_block(status);
+            return;
+        }
+        c.jogging_ = true;
+        c.set_overrides();
+        c.task_ = Controller::Task::jog;
+    }
+    static void sleep(Controller& c, TextCursor& /*rest*/) noexcept {
+        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
+            c.refuse(LineError::not_now);
+            return;
+        }
+        c.accept();
+        c.say("Sleeping");
+        c.spindle_.stop_all();
+        c.sleep_ = true;
+        c.machine_->enable(false);
+    }
+    static void clear_offsets(Controller& c, TextCursor& /*rest*/) noexcept {
+        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
+            c.refuse(LineError::not_now);
+            return;
+        }
+        const std::int32_t tool = c.motion_->interpreter().offsets().tool_number;
+        WorkOffsets none;
+        none.tool_number = tool;
+        c.motion_->interpreter().restore(none);
+        c.machine_->offsets_changed();
+        c.accept();
+    }
+    static void setting(Controller& c, TextCursor& rest) noexcept;
+
+    static constexpr Row rows[] = {
+        {"$$", true, settings},
+        {"$#", true, offsets},
+        {"$g", true, modes},
+        {"$i", false, build},
+        {"$n", false, startup},
+        {"$c", true, check},
+        {"$x", true, unlock},
+        {"$h", false, home},
+        {"$j=", false, jog},
+        {"$slp", true, sleep},
+        {"$rst=#", true, clear_offsets},
+        {"$rst=", false, disabled},
+        {"$", true, help},
+    };
+};
+
+// $n=value: what is there already may be set.
+void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
+    Decimal number;
+    Decimal value;
+    Decimal present;
+    std::int32_t n = 0;
+    rest.take('$');
+    if (!read_decimal(rest, number).ok() || !to_integer(number, n) || !rest.take('=') ||
+        !read_decimal(rest, value).ok() || !rest.at_end() || !SettingList(*c.settings_, c.sender_).find(n, present)) {
+        c.refuse(LineError::unknown_command);
+        return;
+    }
+    constexpr std::int64_t shown = Decimal::one / 1000;
+    const std::int64_t apart = value.raw - present.raw;
+    std::int32_t whole = 0;
+    if ((n == 10 || n == 13) && to_integer(value, whole) && whole >= 0 && whole <= 255) {
+        c.sender_.report_mask = n == 10 ? whole : c.sender_.report_mask;
+        c.sender_.inches = n == 13 ? whole != 0 : c.sender_.inches;
+    } else if (apart > shown || apart < -shown) {
+        c.answers_.put("[MSG:$").integer(n);
+        const std::string_view key = SettingList::key_of(n);
+        c.answers_.put(key.empty() ? " is fixed" : " is ").put(key).put(key.empty() ? "" : " in the machine file");
+        c.answers_.put(']').end_line();
+        c.refuse(LineError::setting_disabled);
+        return;
+    }
+    c.accept();
+}
+
+void Controller::execute_line() noexcept {
+    TextCursor cursor(line_.view());
+    const bool late = refused_lines_ > 0; // it had come before its sender knew
+    refused_lines_ -= late ? 1U : 0U;
+    const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h';
+    if (line_.too_long) {
+        say("A line has at most 256 characters beside comments");
+        refuse(LineError::too_long);
+    } else if (cursor.at_end()) {
+        accept();
+    } else if (late && moves) {
+        refuse(refusal_);
+    } else if (cursor.peek() != '$') {
+        execute_block(line_.view());
+    } else {
+        for (const DollarCommands::Row& row : DollarCommands::rows) {
+            TextCursor rest = cursor;
+            if (rest.take(row.word) && (!row.whole || rest.at_end())) {
+                row.run(*this, rest);
+                return;
+            }
+        }
+        DollarCommands::setting(*this, cursor);
+    }
+}
+
+void Controller::execute_block(std::string_view text) noexcept {
+    if (is_locked() || jogging_) {
+        refuse(LineError::locked);
+        return;
+    }
+    if (door_) {
+        refuse(LineError::door_open);
+        return;
+    }
+    const BlockStatus status = motion_->interpreter().push(text, ++line_number_);
+    if (!status.ok()) {
+        refuse_block(status);
+    } else if (check_) {
+        motion_->leave_out();
+        if (motion_->interpreter().has_ended()) {
+            motion_->interpreter().restart();
+        }
+        accept();
+    } else {
+        task_ = Task::line;
+    }
+}
+
+bool Controller::answers_nobody() noexcept {
+    const bool nobody = of_another_ > 0;
+    of_another_ -= nobody ? 1U : 0U;
+    return nobody;
+}
+
+void Controller::accept() noexcept {
+    if (!answers_nobody()) {
+        answers_.put("ok").end_line();
+    }
+}
+
+void Controller::refuse(LineError error) noexcept {
+    if (answers_nobody()) {
+        return;
+    }
+    answers_.put("error:").integer(static_cast<std::int64_t>(error)).end_line();
+}
+
+// Lines that had come before are refused, too, and what moves is held: the sender decides.
+void Controller::refuse_block(const BlockStatus& status) noexcept {
+    answers_.put("[MSG:Error: ").integer(line_number_);
+    if (status.column > 0) {
+        answers_.put(':').integer(status.column);
+    }
+    answers_.put(' ').put(describe(status.error)).put(']').end_line();
+    refusal_ = line_error_of(status.error);
+    refuse(refusal_);
+    if (!settings_->holds_on_error || check_ || jogging_) {
+        return;
+    }
+    refused_lines_ = lines_.lines();
+    if (!motion_->exhausted()) {
+        hold();
+    }
+}
+
+} // namespace splinefeed

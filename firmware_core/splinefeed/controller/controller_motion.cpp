@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+// Controller: what lines ask for, how it is done, and how it ends.
+#include "splinefeed/controller/controller.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::size_t answer_room = 2048; // of the longest answer
+
+bool stops_itself(Alarm alarm) noexcept {
+    return alarm == Alarm::drive_fault || alarm == Alarm::link_lost || alarm == Alarm::emergency_stop;
+}
+
+} // namespace
+
+void Controller::execute(std::uint32_t now_ms) noexcept {
+    now_ms_ = now_ms;
+    reading_ = machine_->read();
+    watch();
+    settle();
+    do {
+        while (step()) {
+        }
+    } while (motion_->look_ahead());
+}
+
+Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept {
+    execute(now_ms);
+    for (;;) {
+        bool changed = false;
+        while (step()) {
+            changed = true;
+        }
+        if (quick_ || task_ == Task::home) {
+            return Pull::starved;
+        }
+        const Pull pull = motion_->next(out, is_late(dry));
+        ProgramEvent event;
+        while (!held_ && !door_ && motion_->take_event(event)) {
+            carry_out(event);
+        }
+        if (pull == Pull::item || pull == Pull::busy) {
+            return pull;
+        }
+        if (motion_->left_travel() && motion_->exhausted() && reading_.stands && alarm_ == Alarm::none &&
+            ending_ == Ending::none) {
+            raise(Alarm::outside_travel);
+        }
+        if (!changed && !step()) {
+            break;
+        }
+    }
+    if (jogging_ && task_ == Task::none && lines_.lines() == 0 && motion_->exhausted() && reading_.stands) {
+        jogging_ = false;
+        set_overrides();
+    }
+    return Pull::starved;
+}
+
+// Whether the motion shall not wait for more lines.
+bool Controller::is_late(bool dry) const noexcept {
+    const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
+    if (waits || ending_ != Ending::none || rests_ || motion_->left_travel()) {
+        return true;
+    }
+    if (!motion_->at_rest()) {
+        return dry;
+    }
+    return lines_.lines() == 0 && now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
+}
+
+// What the machine itself says.
+void Controller::watch() noexcept {
+    if (reading_.alarm != Alarm::none && reading_.alarm != alarm_) {
+        raise(reading_.alarm, reading_.alarm_sentence);
+    }
+    if (jogging_ && settings_->jog_timeout_ms > 0 && now_ms_ - byte_ms_ > settings_->jog_timeout_ms) {
+        cancel_jog();
+    }
+    if (task_ == Task::probe && reading_.touched && !touched_) {
+        touched_ = true;
+        motion_->abort();
+    }
+    if ((reading_.inputs & InputBits::door) != 0) {
+        open_door();
+    }
+    if (closes_ && reading_.spindle_ready) {
+        door_ = closes_ = false;
+        motion_->resume();
+    }
+}
+
+// One step of the lines. false: nothing can be done now.
+bool Controller::step() noexcept {
+    if (ending_ != Ending::none || answers_.room() < answer_room) {
+        return false;
+    }
+    if (task_ != Task::none) {
+        return go_on();
+    }
+    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$"))) {
+        return false;
+    }
+    lines_.take(line_);
+    execute_line();
+    return true;
+}
+
+bool Controller::go_on() noexcept {
+    switch (task_) {
+    case Task::line: return go_on(motion_->pass_on());
+    case Task::jog: return go_on(motion_->pass_jog());
+    case Task::dwell:
+        if (held_ || door_ || static_cast<std::int32_t>(now_ms_ - until_ms_) < 0) {
+            return false;
+        }
+        break;
+    case Task::spindle:
+        reading_ = machine_->read();
+        if (!reading_.spindle_ready) {
+            return false;
+        }
+        break;
+    case Task::probe: return finish_probe();
+    case Task::home: return finish_home();
+    case Task::none: return false;
+    }
+    motion_->carried_out();
+    task_ = Task::line;
+    return true;
+}
+
+bool Controller::go_on(LineProgress progress) noexcept {
+    rests_ = false;
+    switch (progress) {
+    case LineProgress::done: end_task(); return true;
+    case LineProgress::full: return false;
+    case LineProgress::waits: break;
+    }
+    if (motion_->waiting().needs_rest()) {
+        reading_ = machine_->read();
+        rests_ = true;
+        if (held_ || door_ || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
+            return false;
+        }
+        rests_ = false;
+    }
+    return carry_out();
+}
+
+void Controller::end_task() noexcept {
+    task_ = Task::none;
+    accept();
+}
+
+bool Controller::carry_out() noexcept {
+    const LineMotion::Waiting& waiting = motion_->waiting();
+    switch (waiting.kind) {
+    case ItemKind::dwell:
+        until_ms_ = now_ms_ + static_cast<std::uint32_t>((waiting.dwell_s.raw + 999'999) / 1'000'000);
+        task_ = Task::dwell;
+        return true;
+    case ItemKind::move:
+        if (waiting.move == MoveKind::probe) {
+            begin_probe();
+            return true;
+        }
+        break;
+    case ItemKind::event: carry_out(waiting.event); break;
+    }
+    if (task_ == Task::line) {
+        motion_->carried_out();
+    }
+    return true;
+}
+
+void Controller::carry_out(const ProgramEvent& event) noexcept {
+    switch (event.kind) {
+    case EventKind::message:
+    case EventKind::print:
+    case EventKind::debug: say(event.text.of(line_.view())); return;
+    case EventKind::offsets_changed: machine_->offsets_changed(); return;
+    case EventKind::pause:
+    case EventKind::optional_pause:
+    case EventKind::pallet_pause:
+        held_ = true;
+        motion_->hold();
+        say("Program paused: '~' goes on");
+        return;
+    case EventKind::input_wait: // what depends on the answer is the operator's to decide
+        held_ = true;
+        motion_->hold();
+        say("M66: no input is read here: '~' goes on, a reset ends the program");
+        return;
+    case EventKind::tool_change:
+        tool_ = true;
+        spindle_.stop_all();
+        answers_.put("[MSG:Change to tool ").integer(event.number).put(": '~' goes on]").end_line();
+        return;
+    case EventKind::program_end:
+        spindle_.stop_all();
+        motion_->interpreter().restart();
+        line_number_ = 0;
+        say("Pgm End");
+        return;
+    default: break;
+    }
+    if (!spindle_.obey(event)) {
+        machine_->obey(event);
+    } else if (event.stops) {
+        task_ = Task::spindle;
+    }
+}
+
+void Controller::begin_probe() noexcept {
+    const ProbeCondition probe = motion_->waiting().probe;
+    touched_ = false;
+    if (((reading_.inputs & InputBits::probe) != 0) != probe.away) {
+        motion_->restart();
+        end_task();
+        raise(Alarm::probe_at_start);
+        return;
+    }
+    machine_->watch_probe(probe.away);
+    motion_->begin_waiting();
+    task_ = Task::probe;
+}
+
+bool Controller::finish_probe() noexcept {
+    reading_ = machine_->read();
+    const bool ended = motion_->activity() == Activity::aborted || motion_->exhausted() || motion_->left_travel();
+    if (!ended || !stands()) {
+        return false;
+    }
+    const bool required = motion_->waiting().probe.required;
+    const bool contact = reading_.touched;
+    motion_->restart();
+    set_overrides();
+    BlockInterpreter& interpreter = motion_->interpreter();
+    const PerAxis<Position> place = interpreter.position();
+    interpreter.report_probe(contact, contact ? reading_.touched_at : place, place);
+    for (const unsigned k : indices(settings_->program.axes)) {
+        probe_.at[k] = to_decimal(contact ? reading_.touched_at[k] : place[k]);
+    }
+    probe_.contact = contact;
+    if (contact || !required) {
+        write_probe(probe_, settings_->program, sender_.inches, answers_);
+        end_task();
+        return true;
+    }
+    end_task();
+    raise(Alarm::probe_without_contact);
+    write_probe(probe_, settings_->program, sender_.inches, answers_);
+    return true;
+}
+
+bool Controller::finish_home() noexcept {
+    reading_ = machine_->read();
+    if (reading_.homing == HomingPhase::busy) {
+        return false;
+    }
+    task_ = Task::none;
+    motion_->place(reading_.position);
+    set_overrides();
+    if (reading_.homing == HomingPhase::failed) {
+        refuse(LineError::locked);
+        raise(Alarm::homing_not_found, reading_.alarm_sentence);
+    } else {
+        locked_ = false;
+        alarm_ = Alarm::none;
+        accept();
+    }
+    return true;
+}
+
+void Controller::cancel_jog() noexcept {
+    if (!jogging_ || ending_ != Ending::none) {
+        return;
+    }
+    if (task_ == Task::jog) {
+        end_task();
+    }
+    while (lines_.lines() > 0 && lines_.begins("$J=")) {
+        lines_.take(line_);
+        accept();
+    }
+    ending_ = Ending::jog;
+    motion_->abort();
+}
+
+// A second reset, while the first one still brakes, is the hard one.
+void Controller::begin_ending(Ending ending) noexcept {
+    reading_ = machine_->read();
+    const bool second = ending_ == Ending::reset || ending_ == Ending::stop;
+    if ((second && !stands()) || task_ == Task::home) {
+        machine_->quick_stop();
+        const Alarm alarm = task_ == Task::home ? Alarm::homing_reset : Alarm::stopped_in_motion;
+        quick_ = true;
+        ending_ = Ending::reset;
+        raise(alarm);
+        return;
+    }
+    if (ending == Ending::stop) {
+        if (task_ != Task::none) {
+            end_task();
+        }
+        for (; lines_.lines() > 0; lines_.take(line_)) {
+            accept();
+        }
+    }
+    lines_.clear();
+    task_ = Task::none;
+    ending_ = ending;
+    motion_->abort();
+    spindle_.stop_all();
+}
+
+void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
+    if (alarm_ == alarm) {
+        return;
+    }
+    const AlarmRow& row = row_of(alarm);
+    if (task_ != Task::none) {
+        task_ = Task::none;
+        refuse(LineError::locked);
+    }
+    alarm_ = alarm;
+    answers_.put("ALARM:").integer(static_cast<std::int64_t>(alarm)).end_line();
+    say(sentence.empty() ? row.sentence : sentence);
+    if (row.needs_reset) {
+        spindle_.stop_all();
+    }
+    quick_ = quick_ || stops_itself(alarm);
+    held_ = door_ = closes_ = tool_ = false;
+    if (ending_ == Ending::none) {
+        ending_ = Ending::alarm;
+        motion_->abort();
+    }
+}
+
+// An ending is over when the machine stands.
+void Controller::settle() noexcept {
+    const bool ended = quick_ ? reading_.stands : stands() && motion_->activity() == Activity::aborted;
+    if (ending_ == Ending::none || !ended) {
+        return;
+    }
+    if (quick_) {
+        motion_->place(reading_.position);
+    } else {
+        motion_->restart();
+    }
+    const Ending ending = ending_;
+    ending_ = Ending::none;
+    quick_ = jogging_ = rests_ = false;
+    held_ = ending == Ending::jog ? held_ : false;
+    if (door_) { // it cancelled a jog
+        motion_->hold();
+    }
+    if (ending == Ending::reset) {
+        end_reset();
+    } else if (ending == Ending::stop) {
+        say("Stop");
+    }
+    set_overrides();
+}
+
+// Modes as behind M2, without G92 and tool length; a greeting.
+void Controller::end_reset() noexcept {
+    BlockInterpreter& interpreter = motion_->interpreter();
+    WorkOffsets offsets = interpreter.offsets();
+    offsets.g92 = offsets.tool = {};
+    offsets.g92_applies = false;
+    interpreter.restart();
+    interpreter.restore(offsets);
+    machine_->reset_faults();
+    if (sleep_) {
+        machine_->enable(true);
+        locked_ = true;
+    }
+    locked_ = locked_ || row_of(alarm_).stays;
+    alarm_ = Alarm::none;
+    overrides_ = {};
+    refused_lines_ = of_another_ = 0;
+    line_number_ = 0;
+    check_ = sleep_ = tool_ = door_ = closes_ = false;
+    status_.refresh();
+    greet();
+}
+
+} // namespace splinefeed

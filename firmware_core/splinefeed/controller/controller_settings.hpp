@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// ControllerSettings: what a controller is told of its machine.
+#pragma once
+
+#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
+
+namespace splinefeed {
+
+/// The range of an axis [mm].
+struct AxisTravel {
+    bool limited = false;
+    Decimal low{};
+    Decimal high{};
+};
+
+/// Of an axis, for `$` queries alone.
+struct AxisWiring {
+    bool invert_step = false;
+    bool invert_direction = false;
+    bool homes_low = false;
+};
+
+struct ControllerSettings {
+    MachineSettings machine{};
+    /// Dialect::grbl, with the letters of the axes.
+    ProgramSettings program{.dialect = Dialect::grbl};
+    Decimal max_feed_mm_s{};                                   ///< of moves that are no rapids; 0: the machine's
+    Decimal rotary_tolerance_deg = Decimal::from_integer(100); ///< of moves that turn a rotary axis, if less
+    PerAxis<AxisTravel> travel{};
+    PerAxis<AxisWiring> wiring{};
+    std::string_view version = "0.1"; ///< of splinefeed: two numbers
+    std::string_view date = "20260101";
+    std::string_view name;   ///< of the machine
+    std::string_view source; ///< where its numbers stand, for messages
+    bool homes = false;      ///< $H is possible
+    bool has_limits = false; ///< limit switches
+    bool drives_stay_on = true;
+    bool holds_on_error = true; ///< a refused line holds the motion
+    Decimal max_rpm = Decimal::from_integer(1000);
+    Decimal min_rpm{};
+    bool has_speed = true; ///< the spindle has one
+    std::int32_t step_us = 10;
+    std::int32_t debounce_ms = 0;
+    Decimal pull_off_mm{};
+    Decimal home_latch_mm_min{};
+    Decimal home_seek_mm_min{};
+    std::uint32_t jog_timeout_ms = 1000; ///< a jog ends so long after the last byte of its sender; 0: never
+    std::int32_t receive_bytes = 1024;   ///< what senders may count on
+};
+
+} // namespace splinefeed

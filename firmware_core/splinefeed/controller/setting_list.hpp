@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// SettingList: the machine's numbers as `$` settings, which senders read.
+#pragma once
+
+#include "splinefeed/controller/answer_text.hpp"
+#include "splinefeed/controller/controller_settings.hpp"
+
+namespace splinefeed {
+
+/// The two that a sender may set.
+struct SenderSettings {
+    std::int32_t report_mask = 3; ///< $10
+    bool inches = false;          ///< $13
+};
+
+/// The machine file states the numbers: nothing changes them from here.
+class SettingList {
+public:
+    /// Both must outlive it.
+    SettingList(const ControllerSettings& settings, const SenderSettings& sender) noexcept
+        : settings_(&settings), sender_(&sender) {}
+
+    /// All of them, a line each.
+    void write(AnswerText& out) const noexcept;
+    /// Whether there is such a number, and its value.
+    [[nodiscard]] bool find(std::int32_t number, Decimal& out) const noexcept;
+    /// The key of a machine file that states it; empty: none does.
+    [[nodiscard]] static std::string_view key_of(std::int32_t number) noexcept;
+
+private:
+    const ControllerSettings* settings_;
+    const SenderSettings* sender_;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SpindleOrders: what the spindle and the coolant were told, with the operator's override.
+#pragma once
+
+#include "splinefeed/controller/controlled_machine.hpp"
+#include "splinefeed/s0_program/modal_state.hpp"
+
+namespace splinefeed {
+
+class SpindleOrders {
+public:
+    /// `machine` must outlive it.
+    explicit SpindleOrders(ControlledMachine& machine) noexcept : machine_(&machine) {}
+
+    /// An event of a program. false: it is none of spindle or coolant
+    bool obey(const ProgramEvent& event) noexcept;
+    /// Per cent of the programmed speed.
+    void set_override(int percent) noexcept;
+    /// The operator's switch of flood or mist.
+    void toggle(EventKind coolant) noexcept;
+    /// Off, until restore() or the program's next order.
+    void suspend() noexcept;
+    void restore() noexcept;
+    /// Stops everything.
+    void stop_all() noexcept;
+    /// Stops the spindle, or starts it again.
+    void toggle_spindle() noexcept;
+
+    [[nodiscard]] SpindleState state() const noexcept { return state_; }
+    [[nodiscard]] bool flood() const noexcept { return flood_; }
+    [[nodiscard]] bool mist() const noexcept { return mist_; }
+    /// As it is told to turn [1/min].
+    [[nodiscard]] Decimal told_rpm() const noexcept;
+    [[nodiscard]] int override_percent() const noexcept { return percent_; }
+
+private:
+    void tell_spindle() noexcept;
+    void tell_coolant() noexcept;
+    void tell(EventKind kind, Decimal value = {}) noexcept;
+
+    ControlledMachine* machine_;
+    SpindleState state_ = SpindleState::stopped;
+    Decimal rpm_{};
+    int percent_ = 100;
+    bool flood_ = false;
+    bool mist_ = false;
+    bool suspended_ = false;
+    bool spindle_suspended_ = false;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/controller/travel_guard.hpp"
+
+#include "splinefeed/splines/curve_hull.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+bool TravelGuard<S>::leaves(const CurveSegment<S>& segment) const noexcept {
+    for (const unsigned k : indices(axes_)) {
+        const AxisTravel& travel = (*travel_)[k];
+        if (!travel.limited) {
+            continue;
+        }
+        const int unit = segment.unit_log2;
+        const Extent<S> allowed{distance<S>(segment.origin[k], to_position(travel.low - travel_allowance), unit),
+                                distance<S>(segment.origin[k], to_position(travel.high + travel_allowance), unit)};
+        const S slack = scale2(literal<S>(1e-6), -unit);
+        if (!allowed.contains(extent_beyond(segment.control[k], segment.degree, allowed, slack))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <Scalar S>
+Pull TravelGuard<S>::next(CurveSegment<S>& out) noexcept {
+    if (ended_) {
+        return Pull::starved;
+    }
+    const Pull pull = source_->next(out);
+    ended_ = pull == Pull::item && leaves(out);
+    return ended_ ? Pull::starved : pull;
+}
+
+#if SPLINEFEED_MAX_DEGREE >= 5
+template class TravelGuard<double>;
+template class TravelGuard<float>;
+template class TravelGuard<Fixed>;
+#endif
+
+} // namespace splinefeed

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// TravelGuard: ends a curve before the first segment that leaves the travel of the machine.
+#pragma once
+
+#include "splinefeed/controller/controller_settings.hpp"
+#include "splinefeed/s1_curve/curve_source.hpp"
+
+namespace splinefeed {
+
+/// Moves may leave the travel by so much, as a path may leave its moves [mm].
+inline constexpr Decimal travel_allowance{Decimal::one / 1000};
+
+/// A segment may leave the travel by travel_allowance. Cost: a comparison for each Bezier
+/// point; near the end of travel a segment is halved until it is decided.
+template <Scalar S>
+class TravelGuard final : public CurveSource<S> {
+public:
+    TravelGuard(CurveSource<S>& source, const PerAxis<AxisTravel>& travel, int axes) noexcept
+        : source_(&source), travel_(&travel), axes_(axes) {}
+
+    Pull next(CurveSegment<S>& out) noexcept override;
+    /// Whether it has met such a segment. From then on it is starved.
+    [[nodiscard]] bool has_ended() const noexcept { return ended_; }
+
+private:
+    [[nodiscard]] bool leaves(const CurveSegment<S>& segment) const noexcept;
+
+    CurveSource<S>* source_;
+    const PerAxis<AxisTravel>* travel_;
+    int axes_;
+    bool ended_ = false;
+};
+
+} // namespace splinefeed

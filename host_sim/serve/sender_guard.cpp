@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/serve/sender_guard.hpp"
+
+#include "splinefeed/controller/realtime_byte.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr char tls_greeting = '\x16';
+
+bool acts(char c) {
+    return realtime_byte(static_cast<std::uint8_t>(c)).kind != RealtimeKind::none;
+}
+
+} // namespace
+
+// A request line, or the field that HTTP/1.1 demands.
+bool is_http(std::string_view line) {
+    const std::size_t word = line.find(' ');
+    const bool method = word != std::string_view::npos && word > 0 &&
+                        std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(word),
+                                    [](unsigned char c) { return std::isupper(c) != 0; });
+    const bool host = line.size() >= 5 && std::equal(line.begin(), line.begin() + 5, "host:", [](char a, char b) {
+                          return std::tolower(static_cast<unsigned char>(a)) == b;
+                      });
+    return host || (method && line.find(" HTTP/") != std::string_view::npos);
+}
+
+bool SenderGuard::take(std::string_view bytes, std::string& out) {
+    for (const char c : bytes) {
+        if (passed_ || (first_.empty() && acts(c))) {
+            out += c;
+            continue;
+        }
+        if (c == tls_greeting || first_.size() == longest_line) {
+            return false;
+        }
+        const bool ends = c == '\n' || c == '\r';
+        if (ends && is_http(first_)) {
+            return false;
+        }
+        passed_ = ends && !first_.empty();
+        first_ += ends && !passed_ ? "" : std::string(1, c);
+        if (passed_ || ends) {
+            out += passed_ ? first_ : std::string(1, c);
+        }
+    }
+    return true;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SenderGuard: lets nothing of a connection through before its first line shows that it is a sender's.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// Any page of the web can make a browser send bytes to a port of its own computer: behind an HTTP request, or a TLS
+/// greeting. Those begin with a letter, or with 0x16; a sender's first byte may act at once, and its first line is a
+/// line. Nothing acts before the end of that.
+class SenderGuard {
+public:
+    static constexpr std::size_t longest_line = 4096;
+
+    /// What may go through of what has come. false: it is no sender; close the connection.
+    [[nodiscard]] bool take(std::string_view bytes, std::string& out);
+
+private:
+    std::string first_;
+    bool passed_ = false;
+};
+
+/// Whether a line is of HTTP.
+[[nodiscard]] bool is_http(std::string_view line);
+
+} // namespace splinefeed::host

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// serve_settings: a machine file as a controller is told of it.
+#pragma once
+
+#include "host_sim/run/run_machine.hpp"
+
+#include "splinefeed/controller/controller_settings.hpp"
+
+namespace splinefeed::host {
+
+/// Texts refer to the machine, which must outlive the settings. Throws UsageError where senders could not show
+/// the machine's axes.
+[[nodiscard]] ControllerSettings serve_settings(const RunMachine& machine_of_run);
+
+} // namespace splinefeed::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// ServedMotion: the motion of a controller for a machine, with its planner and its memory.
+#pragma once
+
+#include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/planning/planned_trajectory.hpp"
+
+#include "splinefeed/controller/scalar_motion.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace splinefeed::host {
+
+class ServedMotion {
+public:
+    /// Throws InputError where the machine's limits do not go together. `settings` must outlive it.
+    ServedMotion(const MachineDescription& machine, const ControllerSettings& settings)
+        : limits_(machine_limits<Fixed>(machine)), window_(PlannerChoice{}.window_cells),
+          motion_(settings, limits_, planner(), manner(machine.tolerances)) {}
+    ServedMotion(const ServedMotion&) = delete;
+    ServedMotion& operator=(const ServedMotion&) = delete;
+
+    [[nodiscard]] LineMotion& motion() noexcept { return motion_; }
+    [[nodiscard]] int segments_per_sample() const noexcept { return limits_.segments_per_sample; }
+
+private:
+    [[nodiscard]] Planner<Fixed>& planner() {
+        if (!limits_.jerk_limited) {
+            return acceleration_.emplace(window_);
+        }
+        const std::size_t cells = window_.size() / PlannedTrajectory<Fixed>::cells_a_jerk_cell;
+        return jerk_.emplace(window_, cells + std::min(cells / 3, JerkWindow<Fixed, double>::most_spare)).planner;
+    }
+    [[nodiscard]] static PathManner<Fixed> manner(const PathTolerances& tolerances) {
+        return {from_double<Fixed>(tolerances.joint_mm),
+                {from_double<Fixed>(tolerances.sharpest.curvature_1_mm), from_double<Fixed>(tolerances.sharpest.fading),
+                 from_double<Fixed>(tolerances.sharpest.half_sine)}};
+    }
+
+    MotionLimits<Fixed> limits_;
+    std::vector<PlannedCell<Fixed>> window_;
+    std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two
+    std::optional<JerkMemory<Fixed, double>> jerk_;
+    ScalarMotion<Fixed> motion_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Server: a controller with its machine, its senders and its console, in real time.
+#pragma once
+
+#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/run/state_keeper.hpp"
+#include "host_sim/serve/sender_door.hpp"
+#include "host_sim/serve/served_motion.hpp"
+#include "host_sim/serve/simulated_tool.hpp"
+
+#include "splinefeed/controller/controller.hpp"
+
+namespace splinefeed::host {
+
+class Server {
+public:
+    /// All must outlive it. @param state  null: nothing is kept   @param begins  offsets, and where the machine stands
+    /// @param says  tells the operator's terminal what happens
+    Server(const ControllerSettings& settings, ServedMotion& motion, SimulatedTool& tool, StateKeeper* state,
+           const MachineState& begins, bool says);
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    [[nodiscard]] SenderDoor& door() noexcept { return *door_; }
+    /// A line that was typed at the server's terminal.
+    void type(std::string_view line);
+    /// Serves until `signals` ask for the end, and the machine stands. A second request stops it at once.
+    void run(SignalWatch& signals);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    [[nodiscard]] std::uint32_t now_ms() const;
+    void obey(SignalWatch& signals);
+    void step();
+    void answer();
+    void keep();
+
+    LineMotion* motion_;
+    SimulatedTool* tool_;
+    StateKeeper* state_;
+    std::vector<char> lines_;
+    std::vector<char> answers_;
+    Controller controller_;
+    std::unique_ptr<SenderDoor> door_;
+    Clock::time_point start_ = Clock::now();
+    int requests_ = 0; // to end, that were obeyed
+    bool says_;
+    bool leaves_ = false;
+    bool moved_ = false; // since the state was kept
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The cases of tests/controller/conformance.txt, by TCP and by a pseudo terminal: conformance.py TOOL.
+
+Each case begins with a reset machine: a new server for each would take longer. What only a machine in virtual time can do is left out, with the
+cases that need it; a wait that is too long on a busy host changes no answer of the others.
+"""
+import codecs
+import fnmatch
+import pathlib
+import re
+import sys
+import tempfile
+import time
+
+from sender import Failed, Sender, Server
+
+HERE = pathlib.Path(__file__).resolve().parent
+VIRTUAL = {"machine", "told", "way", "connect", "disconnect"}
+# They count on the time of the host to some milliseconds.
+TIMED = {"a dwell is answered when it is over", "a second reset stops off the path", "a feed override", "an override of rapids acts on rapids alone",
+         "a feed override does not act on jogs", "hold and resume", "no jog while a program runs"}
+
+
+def cases():
+    name, lines = None, []
+    for number, line in enumerate((HERE.parent / "controller/conformance.txt").read_text().splitlines(), 1):
+        if not line or line.startswith("#"):
+            continue
+        command, _, rest = line.partition(" ")
+        if command == "case":
+            if name:
+                yield name, lines
+            name, lines = rest, []
+        else:
+            lines.append((number, command, rest))
+    yield name, lines
+
+
+def take(sender, command, rest):
+    if command == ">":
+        sender.send(codecs.escape_decode(rest.encode())[0])
+    elif command == "<":
+        line = sender.line()
+        pattern = re.sub(r"[\[\]?]", lambda found: f"[{found.group()}]", rest)
+        if not fnmatch.fnmatchcase(line, pattern):
+            raise Failed(f"it said: {line}")
+    elif command == "wait":
+        sender.wait_ms(int(rest))
+    elif command == "until":
+        sender.until(rest)
+    elif command == "at":
+        place = sender.place()
+        if any(abs(a - float(b)) > 0.0015 for a, b in zip(place, rest.split())):
+            raise Failed(f"it stands at {place}")
+
+
+class CaseSender(Sender):
+    def wait_ms(self, ms):
+        until = time.monotonic() + ms / 1000.0
+        while time.monotonic() < until:
+            self.read(until - time.monotonic())
+
+
+def begin(sender):
+    """As it is switched on: at 0, with the numbers of its file."""
+    sender.send(b"\x18")
+    sender.wait_ms(100)
+    sender.text = b""
+    lines = b"\n$X\n$10=3\n$13=0\n$RST=#\nG53G0Z0\nG53G0X0Y0\nG4P0.01\nM9\n"
+    sender.send(lines)
+    answers = 0
+    while answers < lines.count(b"\n"):
+        answers += re.match("ok|error:", sender.line()) is not None
+    sender.until("Idle")
+    sender.send(b"\x18")
+    sender.wait_ms(60)
+    sender.text = b""
+
+
+def main():
+    tool = sys.argv[1]
+    run, failed = 0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        for kind in ("tcp", "pty"):
+            server = Server(tool, folder, machine=str(HERE / "machine.toml"))
+            sender = CaseSender(server, kind)
+            for name, lines in cases():
+                if name in TIMED or any(command in VIRTUAL for _, command, _ in lines):
+                    continue
+                run += 1
+                at = 0
+                try:
+                    begin(sender)
+                    for at, command, rest in lines:
+                        take(sender, command, rest)
+                    sender.wait_ms(150)
+                    if sender.text:
+                        raise Failed(f"more is said: {sender.text!r}")
+                except Failed as failure:
+                    failed += 1
+                    print(f"{kind}: {name}, line {at}: {failure}", flush=True)
+            sender.close()
+            status, told = server.end()
+            if status != 0 or told:
+                failed += 1
+                print(f"{kind}: the server ends with {status}: {told}")
+    print(f"{run} cases, {failed} failed")
+    return 1 if failed or run < 80 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A server of the tool and a sender that is connected to it, for tests."""
+import os
+import re
+import select
+import signal
+import socket
+import subprocess
+import time
+
+
+class Failed(Exception):
+    pass
+
+
+class Server:
+    """`splinefeed serve` with a TCP port and a pseudo terminal."""
+
+    def __init__(self, tool, folder, *options, machine):
+        self.pty = os.path.join(folder, "machine_pty")
+        self.process = subprocess.Popen([tool, "serve", "-m", machine, "--tcp", "127.0.0.1:0", "--pty", self.pty, *options],
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
+        self.process.stdout.readline()
+
+    def end(self, signals=1):
+        """Its exit status, and what it has told."""
+        for _ in range(signals):
+            self.process.send_signal(signal.SIGINT)
+        told = self.process.communicate(timeout=30)[1]
+        return self.process.returncode, told
+
+
+class Sender:
+    def __init__(self, server, kind="tcp"):
+        if kind == "tcp":
+            self.socket = socket.create_connection(("127.0.0.1", server.port))
+            self.descriptor = self.socket.fileno()
+        else:
+            self.socket = None
+            self.descriptor = os.open(server.pty, os.O_RDWR | os.O_NOCTTY)
+        self.text = b""
+
+    def send(self, data):
+        os.write(self.descriptor, data)
+
+    def read(self, seconds):
+        """Whether something has come."""
+        if not select.select([self.descriptor], [], [], max(seconds, 0.0))[0]:
+            return False
+        try:
+            part = os.read(self.descriptor, 65536)
+        except OSError:
+            part = b""
+        if not part:
+            raise Failed("the server has closed the connection")
+        self.text += part
+        return True
+
+    def line(self, seconds=10.0):
+        """The next one, without its end."""
+        until = time.monotonic() + seconds
+        while b"\n" not in self.text:
+            if time.monotonic() > until or not self.read(until - time.monotonic()):
+                raise Failed(f"nothing more is said: {self.text!r}")
+        line, self.text = self.text.split(b"\n", 1)
+        if not line.endswith(b"\r"):
+            raise Failed(f"a line ends without a return: {line!r}")
+        return line[:-1].decode()
+
+    def report(self):
+        """The status; what else is said meanwhile stays to be read."""
+        kept, until = self.text, time.monotonic() + 10.0
+        self.text = b""
+        self.send(b"?")
+        while time.monotonic() < until:
+            found = re.search(rb"<[^>]*>\r\n", self.text)
+            if found:
+                self.text = kept + self.text[:found.start()] + self.text[found.end():]
+                return found.group().decode().strip()
+            self.read(0.1)
+        raise Failed("no status comes")
+
+    def until(self, state, seconds=60.0):
+        until = time.monotonic() + seconds
+        while True:
+            report = self.report()
+            if report[1:].split("|")[0] == state:
+                return report
+            if time.monotonic() > until:
+                raise Failed(f"never {state}: {report}")
+            time.sleep(0.02)
+
+    def place(self):
+        return [float(number) for number in re.search(r"Pos:([^|>]*)", self.report()).group(1).split(",")]
+
+    def close(self):
+        if self.socket:
+            self.socket.close()
+        else:
+            os.close(self.descriptor)

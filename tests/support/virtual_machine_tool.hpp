@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// A controller with a machine in virtual time: three axes with limits, whose motion the simulated machine judges, with
+// a spindle, a probe and home switches that a test sets.
+#pragma once
+
+#include "host_sim/machine/simulated_machine.hpp"
+
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/controller/controller.hpp"
+#include "splinefeed/controller/scalar_motion.hpp"
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace splinefeed::test {
+
+/// Travel 0 to 300, 0 to 200 and -80 to 0 mm; 100 mm/s, 1000 mm/s^2, 320 counts per mm; a spindle up to 10000 rpm.
+inline ControllerSettings settings_of_machine_tool() {
+    ControllerSettings out;
+    out.machine.axes = 3;
+    for (unsigned k = 0; k < 3; ++k) {
+        out.machine.axis[k] = {100.0, 1000.0, 0.0, 320.0};
+    }
+    out.travel = {AxisTravel{true, {}, Decimal::from_integer(300)}, AxisTravel{true, {}, Decimal::from_integer(200)},
+                  AxisTravel{true, Decimal::from_integer(-80), {}}};
+    out.program.axes = 3;
+    out.program.dialect = Dialect::grbl;
+    out.name = "test";
+    out.homes = true;
+    out.max_rpm = Decimal::from_integer(10000);
+    return out;
+}
+
+/// Executes segments, a millisecond at a time.
+class VirtualMachineTool final : public ControlledMachine {
+public:
+    explicit VirtualMachineTool(const ControllerSettings& settings) {
+        description_.settings = settings.machine;
+        for (unsigned k = 0; k < 3; ++k) {
+            description_.axis_name[k] = std::string(1, "xyz"[k]);
+            description_.travel[k] = host::Travel{to_mm(to_position(settings.travel[k].low)) - 1e-3,
+                                                  to_mm(to_position(settings.travel[k].high)) + 1e-3};
+        }
+        judge_.emplace(description_, 1);
+    }
+
+    // What the test does to it.
+    std::optional<double> plate; // z of the probe's contact [mm]
+    std::uint32_t inputs = 0;
+    Alarm alarm = Alarm::none;
+    bool known = true;
+    bool home_found = true;
+    std::uint32_t spindle_ms = 0;    // that it takes to its speed
+    std::vector<std::string> orders; // what it was told
+
+    [[nodiscard]] bool has_room() const { return queue_.size() < 10; }
+    /// Less than 5 ms of motion are left.
+    [[nodiscard]] bool is_dry() const { return queue_.size() < 5; }
+    void submit(const FeedSegment& segment) { queue_.push_back(segment); }
+    void tick() {
+        ++now_;
+        feed_ = {};
+        std::uint32_t left = 8000;
+        while (!queue_.empty() && left >= queue_.front().duration_ticks) {
+            left -= queue_.front().duration_ticks;
+            execute(queue_.front());
+            queue_.pop_front();
+        }
+        if (homing_ == HomingPhase::busy && now_ >= home_at_) {
+            homing_ = home_found ? HomingPhase::done : HomingPhase::failed;
+            known = known || home_found;
+            stop_at({});
+        }
+    }
+    [[nodiscard]] const PerAxis<Position>& position() const { return position_; }
+    [[nodiscard]] bool moves() const { return moves_; }
+    [[nodiscard]] double distance_mm() const { return distance_; }
+
+    MachineReading read() noexcept override {
+        MachineReading out;
+        out.position = position_;
+        out.stands = queue_.empty() && !moves_;
+        out.known = known;
+        out.spindle_ready = now_ >= spindle_at_;
+        const bool contact = plate && to_mm(position_[2]) <= *plate;
+        out.inputs = inputs | (contact ? InputBits::probe : 0U);
+        out.touched = touched_.has_value();
+        out.touched_at = touched_.value_or(PerAxis<Position>{});
+        out.homing = homing_;
+        out.alarm = alarm;
+        out.feed_mm_min = feed_;
+        return out;
+    }
+    void obey(const ProgramEvent& event) noexcept override {
+        orders.push_back(std::to_string(static_cast<int>(event.kind)) + " " +
+                         std::to_string(event.value.raw / Decimal::one));
+        spindle_at_ = now_ + spindle_ms;
+    }
+    void watch_probe(bool away) noexcept override {
+        touched_.reset();
+        away_ = away;
+    }
+    void home(std::uint32_t /*axes*/) noexcept override {
+        homing_ = HomingPhase::busy;
+        home_at_ = now_ + 200;
+    }
+    void quick_stop() noexcept override {
+        homing_ = homing_ == HomingPhase::busy ? HomingPhase::failed : homing_;
+        stop_at(position_);
+    }
+    void enable(bool on) noexcept override { orders.emplace_back(on ? "on" : "off"); }
+    void reset_faults() noexcept override {}
+    void offsets_changed() noexcept override {}
+
+private:
+    // From here on another chain of segments begins.
+    void stop_at(const PerAxis<Position>& position) {
+        queue_.clear();
+        moves_ = false;
+        position_ = position;
+        judge_.emplace(description_, 1);
+    }
+    void execute(const FeedSegment& segment) {
+        if (!judge_->submit(segment) || judge_->poll().phase == hal::PortPhase::fault) {
+            throw std::runtime_error("the machine: " + judge_->failure().what);
+        }
+        const PerAxis<Position> before = position_;
+        double way_sq = 0.0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const double mm = static_cast<double>(segment.end[k]) / static_cast<double>(units_per_count) / 320.0;
+            position_[k] = position_from_mm(mm);
+            way_sq += std::pow(mm - to_mm(before[k]), 2);
+        }
+        distance_ += std::sqrt(way_sq);
+        moves_ = !segment.ends_at_rest();
+        feed_ = Decimal{static_cast<std::int64_t>(std::sqrt(way_sq) * 60e3 * 1e9)};
+        const bool contact = plate && to_mm(position_[2]) <= *plate;
+        if (!touched_ && contact != away_) {
+            touched_ = position_;
+        }
+    }
+
+    host::MachineDescription description_;
+    std::optional<host::SimulatedMachine> judge_;
+    std::deque<FeedSegment> queue_;
+    PerAxis<Position> position_{};
+    std::optional<PerAxis<Position>> touched_;
+    Decimal feed_{};
+    HomingPhase homing_ = HomingPhase::none;
+    std::uint32_t now_ = 0;
+    std::uint32_t home_at_ = 0;
+    std::uint32_t spindle_at_ = 0;
+    double distance_ = 0.0;
+    bool away_ = false;
+    bool moves_ = false;
+};
+
+/// The controller of such a machine.
+template <Scalar S>
+class ControlledTool {
+public:
+    ControlledTool()
+        : settings(settings_of_machine_tool()), machine(settings), limits_(*MotionLimits<S>::make(settings.machine)),
+          window_(256), planner_(window_) {
+        motion_ = std::make_unique<ScalarMotion<S>>(settings, limits_, planner_);
+        controller = std::make_unique<Controller>(settings, *motion_, machine, Controller::Memory{lines_, answers_});
+    }
+
+    void send(std::string_view bytes) { controller->receive(bytes, now_); }
+    /// A millisecond.
+    void tick() {
+        FeedSegment segment;
+        while (machine.has_room() && controller->next(segment, machine.is_dry(), now_) == Pull::item) {
+            machine.submit(segment);
+        }
+        machine.tick();
+        ++now_;
+        std::array<char, 512> part{};
+        while (const std::size_t size = controller->take_answers(part)) {
+            text.append(part.data(), size);
+        }
+    }
+
+    ControllerSettings settings;
+    VirtualMachineTool machine;
+    std::unique_ptr<Controller> controller;
+    std::string text; // what it has said
+
+private:
+    MotionLimits<S> limits_;
+    std::vector<PlannedCell<S>> window_;
+    AccelerationPlanner<S> planner_;
+    std::unique_ptr<ScalarMotion<S>> motion_;
+    std::array<char, 4096> lines_{};
+    std::array<char, 16384> answers_{};
+    std::uint32_t now_ = 1000;
+};
+
+} // namespace splinefeed::test
