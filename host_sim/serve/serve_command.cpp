@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/serve/serve_settings.hpp"
 #include "host_sim/serve/server.hpp"
 

@@ -31,7 +31,7 @@ ControllerSettings serve_settings(const RunMachine& machine_of_run) {
     out.program.axes = machine.settings.axes;
     out.program.dialect = Dialect::grbl;
     out.program.default_tolerance_mm = decimal_of(machine.tolerances.programmed_mm);
-    out.program.chain_quarters = machine.tolerances.jerk_limited ? 4 : 3;
+    out.program.chain_quarters = machine.tolerances.rules.chain_quarters;
     out.program.rapid_tolerance_mm = decimal_of(machine.tolerances.rapid_mm);
     out.max_feed_mm_s = decimal_of(machine_of_run.max_feed_mm_s);
     out.rotary_tolerance_deg = decimal_of(machine.tolerances.rotary_deg);

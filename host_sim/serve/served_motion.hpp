@@ -18,7 +18,7 @@ public:
     /// Throws InputError where the machine's limits do not go together. `settings` must outlive it.
     ServedMotion(const MachineDescription& machine, const ControllerSettings& settings)
         : limits_(machine_limits<Fixed>(machine)), window_(PlannerChoice{}.window_cells),
-          motion_(settings, limits_, planner(), manner(machine.tolerances)) {}
+          motion_(settings, limits_, planner(), rules_cast<Fixed>(machine.tolerances.rules)) {}
     ServedMotion(const ServedMotion&) = delete;
     ServedMotion& operator=(const ServedMotion&) = delete;
 
@@ -33,12 +33,6 @@ private:
         const std::size_t cells = window_.size() / PlannedTrajectory<Fixed>::cells_a_jerk_cell;
         return jerk_.emplace(window_, cells + std::min(cells / 3, JerkWindow<Fixed, double>::most_spare)).planner;
     }
-    [[nodiscard]] static PathManner<Fixed> manner(const PathTolerances& tolerances) {
-        return {from_double<Fixed>(tolerances.joint_mm),
-                {from_double<Fixed>(tolerances.sharpest.curvature_1_mm), from_double<Fixed>(tolerances.sharpest.fading),
-                 from_double<Fixed>(tolerances.sharpest.half_sine)}};
-    }
-
     MotionLimits<Fixed> limits_;
     std::vector<PlannedCell<Fixed>> window_;
     std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two

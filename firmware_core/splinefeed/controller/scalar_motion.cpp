@@ -5,8 +5,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double of_kink = 0.625; // of joint_tolerance_mm, without a jerk limit: the samples leave the path, too
-
 template <Scalar S>
 S percent(int value) noexcept {
     return from_integer<S>(value) / from_integer<S>(100);
@@ -16,17 +14,14 @@ S percent(int value) noexcept {
 
 template <Scalar S>
 ScalarMotion<S>::ScalarMotion(const ControllerSettings& settings, const MotionLimits<S>& limits, Planner<S>& planner,
-                              const PathManner<S>& manner) noexcept
-    : settings_(&settings), limits_(&limits), planner_(&planner), manner_(manner), interpreter_(settings.program) {
-    if (!limits.jerk_limited) {
-        manner_.joint_tolerance_mm = manner_.joint_tolerance_mm * literal<S>(of_kink);
-    }
+                              const PathRules<S>& rules) noexcept
+    : settings_(&settings), limits_(&limits), planner_(&planner), rules_(rules), interpreter_(settings.program) {
     place({});
 }
 
 template <Scalar S>
 void ScalarMotion<S>::build_path() noexcept {
-    path_.build(limits_->axes, manner_.joint_tolerance_mm, manner_.sharpest, limits_->jerk_limited);
+    path_.build(limits_->axes, rules_);
     guard_.build(*path_, settings_->travel, limits_->axes);
     const Status status = path_->start(here_);
     SPLINEFEED_ASSERT(status.ok());

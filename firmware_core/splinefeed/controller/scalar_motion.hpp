@@ -6,25 +6,20 @@
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
 #include "splinefeed/trajectory.hpp"
 
 namespace splinefeed {
-
-/// How corners are rounded.
-template <Scalar S>
-struct PathManner {
-    S joint_tolerance_mm = literal<S>(0.001); ///< TolerancePath, of exact paths
-    SharpestBlend<S> sharpest{};
-};
 
 /// A move waits until the next one, or a pause of the input, tells whether the machine stands at its end. The path is
 /// made anew at each restart(). Memory: that of Interpreter and TolerancePath.
 template <Scalar S>
 class ScalarMotion final : public LineMotion {
 public:
-    /// All arguments must outlive it. @pre Trajectory::make() accepts limits and planner
+    /// All arguments but the rules must outlive it. @param rules  path_rules() of the machine
+    /// @pre Trajectory::make() accepts limits and planner
     ScalarMotion(const ControllerSettings& settings, const MotionLimits<S>& limits, Planner<S>& planner,
-                 const PathManner<S>& manner = {}) noexcept;
+                 const PathRules<S>& rules = rules_cast<S>(path_rules(MachineSettings{}))) noexcept;
 
     [[nodiscard]] BlockInterpreter& interpreter() noexcept override { return interpreter_; }
     LineProgress pass_on() noexcept override;
@@ -71,7 +66,7 @@ private:
     const ControllerSettings* settings_;
     const MotionLimits<S>* limits_;
     Planner<S>* planner_;
-    PathManner<S> manner_;
+    PathRules<S> rules_;
     Interpreter<S> interpreter_;
     Slot<TolerancePath<S>> path_;
     Slot<TravelGuard<S>> guard_;
