@@ -36,6 +36,7 @@ class Sender:
     def __init__(self, server, kind="tcp"):
         if kind == "tcp":
             self.socket = socket.create_connection(("127.0.0.1", server.port))
+            self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # else a second byte waits for an answer to the first
             self.descriptor = self.socket.fileno()
         else:
             self.socket = None

@@ -31,6 +31,8 @@ namespace splinefeed {
 /// are milliseconds of any clock, and wrap.
 class Controller {
 public:
+    /// Behind so long without a block and without motion, lines are counted anew: another program begins.
+    static constexpr std::uint32_t recount_ms = 1000;
     static constexpr std::uint32_t pause_ms = 100;    ///< a motion begins if the input pauses for so long
     static constexpr std::uint32_t jog_pause_ms = 20; ///< the same for a jog
 
@@ -126,6 +128,7 @@ private:
     std::uint32_t now_ms_ = 0;
     std::uint32_t byte_ms_ = 0;  // when the last byte came
     std::uint32_t line_ms_ = 0;  // when the last line came
+    std::uint32_t block_ms_ = 0; // when the last block was executed
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
     std::size_t refused_lines_ = 0; // that had come when one was refused

@@ -226,7 +226,10 @@ void Controller::execute_block(std::string_view text) noexcept {
         refuse(LineError::door_open);
         return;
     }
-    const BlockStatus status = motion_->interpreter().push(text, ++line_number_);
+    const bool begins = activity() == ControllerState::idle && now_ms_ - block_ms_ >= recount_ms;
+    line_number_ = begins ? 1 : line_number_ + 1;
+    block_ms_ = now_ms_;
+    const BlockStatus status = motion_->interpreter().push(text, line_number_);
     if (!status.ok()) {
         refuse_block(status);
     } else if (check_) {
