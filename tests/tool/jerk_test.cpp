@@ -5,6 +5,10 @@
 #include "support/places.hpp"
 #include "tool.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using nlohmann::json;
@@ -45,6 +49,25 @@ TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleratio
             CHECK(seconds >= summary["optimum_time_s"].get<double>());
             CHECK(seconds <= over_least * summary["optimum_time_s"].get<double>());
         }
+    }
+}
+
+// Of a chain of very short lines a cell's distance from the curve may take all of the jerk.
+TEST_CASE("A contour of short lines is never slow as a whole because of one of its cells") {
+    const Tool tool;
+    for (std::uint32_t random : {9U, 18U, 21U}) {
+        std::string program = "G21 G17 G90 G64 P0.01\nG0 X23.8415 Y0 Z0\nG1 F6000\n";
+        for (double t = 0.0; t < 6.2831; t += std::array{0.0007, 0.003, 0.006, 0.009}[random >> 16U & 3U]) {
+            const double radius = 20.0 + 3.0 * std::cos(3.0 * t) + std::sin(7.0 * t + 1.0);
+            program += fmt::format("X{:.3f} Y{:.3f}\n", radius * std::cos(t), radius * std::sin(t));
+            random = (random * 1103515245U + 12345U) % 0x80000000U;
+        }
+        tool.write("contour.ngc", program + "M2\n");
+        const Call call = tool("run contour.ngc" + machine + " --summary json --quiet");
+        CAPTURE(call.error);
+        REQUIRE(call.status == 0);
+        const json summary = json::parse(call.output);
+        CHECK(summary["cycle_time_s"].get<double>() < 2.0 * summary["optimum_time_s"].get<double>());
     }
 }
 
