@@ -28,7 +28,7 @@ enum class RealtimeKind : std::uint8_t {
 
 struct RealtimeByte {
     RealtimeKind kind = RealtimeKind::none;
-    std::int8_t value = 0;
+    std::int16_t value = 0;
 };
 
 /// What a byte means: grbl 1.1's. From 0x80 on a byte is never part of a line: 0xc0 to 0xff do nothing, so those that

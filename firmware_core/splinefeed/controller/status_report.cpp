@@ -55,8 +55,7 @@ PerAxis<Decimal> offset_of(const WorkOffsets& offsets) noexcept {
     return out;
 }
 
-void StatusReport::write_inputs(std::uint32_t inputs, const ControllerSettings& settings,
-                                AnswerText& out) const noexcept {
+void StatusReport::write_inputs(std::uint32_t inputs, const ControllerSettings& settings, AnswerText& out) noexcept {
     if (inputs == 0) {
         return;
     }

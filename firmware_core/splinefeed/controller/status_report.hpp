@@ -43,7 +43,7 @@ public:
     bool inches = false;   ///< $13
 
 private:
-    void write_inputs(std::uint32_t inputs, const ControllerSettings& settings, AnswerText& out) const noexcept;
+    static void write_inputs(std::uint32_t inputs, const ControllerSettings& settings, AnswerText& out) noexcept;
 
     int until_offsets_ = 0;
     int until_overrides_ = 0;

@@ -44,7 +44,7 @@ struct DialectRules {
     bool dwell_words = false;           ///< G4 takes X or U, too
     bool dwell_speed = false;           ///< G4 and pauses take S as a time
     DwellUnit dwell = DwellUnit::second;
-    bool retracts_to_r = false;         ///< cycles begin in G99, others in G98
+    bool retracts_to_r = false;    ///< cycles begin in G99, others in G98
     std::int16_t first_motion = 0; ///< in effect before the first block: ten times the G word; 800: none
     std::int16_t last_motion = 10; ///< and behind M2 and M30
     Decimal first_feed{};          ///< before any F [mm/min]

@@ -12,7 +12,7 @@ namespace detail {
 
 /// The acceleration across the path, v^2 kappa, that a machine allows whatever its axes do.
 constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
-    double least = largest<double>();
+    auto least = largest<double>();
     if (machine.centripetal_mm_s2 > 0.0) {
         least = machine.centripetal_mm_s2;
     }

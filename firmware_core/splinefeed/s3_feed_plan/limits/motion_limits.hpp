@@ -46,7 +46,7 @@ struct MotionLimits {
     }
 
     /// Checks every number (the error names the first one that is out of range) and computes the rest.
-    [[nodiscard]] static constexpr Result<MotionLimits, LimitError> make(const MachineSettings& settings) noexcept;
+    [[nodiscard]] static constexpr Result<MotionLimits, LimitError> make(const MachineSettings& stated) noexcept;
 };
 
 namespace detail {
