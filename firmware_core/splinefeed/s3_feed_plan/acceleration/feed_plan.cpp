@@ -243,14 +243,6 @@ Pull FeedPlan<S>::fill(WorkBudget& work) noexcept {
     return Pull::item;
 }
 
-template <Scalar S>
-void FeedPlan<S>::lead() noexcept {
-    steering_.override_feed(from_integer<S>(2));
-    steering_.poll();
-    steering_.acknowledge();
-    leads_ = true;
-}
-
 // Nothing is committed: takes what there is of the path, and commits a part of it.
 template <Scalar S>
 Pull FeedPlan<S>::plan(UnderrunPolicy underrun, WorkBudget& work) noexcept {
@@ -383,13 +375,6 @@ void FeedPlan<S>::pop() noexcept {
     window_.pop();
     pass_.pop();
     --committed_;
-}
-
-template <Scalar S>
-void FeedPlan<S>::clear() noexcept {
-    SPLINEFEED_ASSERT(standing());
-    forget();
-    steering_.start();
 }
 
 template <Scalar S>

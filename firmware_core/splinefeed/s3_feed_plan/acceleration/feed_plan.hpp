@@ -57,11 +57,20 @@ public:
 
     Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
-    void clear() noexcept override;
+    void clear() noexcept override {
+        SPLINEFEED_ASSERT(standing());
+        forget();
+        steering_.start();
+    }
     /// Prepares this plan to be refined: another plan takes its cells and uses its speeds as upper bounds, without the
     /// override. The other plan stops at the end of the known path; this plan sets no bound there. @pre first call
     /// after construction
-    void lead() noexcept;
+    void lead() noexcept {
+        steering_.override_feed(from_integer<S>(2));
+        steering_.poll();
+        steering_.acknowledge();
+        leads_ = true;
+    }
     /// Forgets every cell, wherever the plan is, because another plan has travelled them.
     void forget() noexcept;
 
