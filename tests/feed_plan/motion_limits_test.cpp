@@ -150,7 +150,10 @@ TEMPLATE_TEST_CASE("a jerk limit shortens cells and their grades", "[feed_plan][
     CHECK(to_double(with.jerk_mm_s3[1]) <= 3e4);
     CHECK(to_double(with.jerk_mm_s3[1]) >= 0.99 * 3e4);
     CHECK(to_double(with.jerk_mm_s3[0]) >= 0.99 * 2e6); // 2 A / T: no more can be emitted
-    machine.sample_period_us = 50;                      // its rounding would be a jerk of its own
+    machine.sample_period_us = 250; // cells of 0.12 mm, of which a window would show too little of the path
+    machine.axis[1].max_jerk_mm_s3 = 6e4;
+    CHECK(to_double(MotionLimits<TestType>::make(machine).value().refinement.longest_mm) == 0.25);
+    machine.sample_period_us = 50; // its rounding would be a jerk of its own
     machine.axis[1].max_jerk_mm_s3 = 1.0;
     CHECK(error_of<TestType>(machine) == LimitError::period_too_short);
 }
