@@ -246,6 +246,44 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
     CHECK(control.use() <= 1.0001);
 }
 
+TEST_CASE("the motion follows override, slider and hold at once, while it probes sooner", "[linuxcnc]") {
+    struct Order {
+        tpc_input input;
+        double speed; // mm/s, where 50 are programmed
+    };
+    for (const Order& order :
+         {Order{{0.5, 1e6, 0, 0, 0}, 25.0}, Order{{1.6, 1e6, 0, 0, 0}, 80.0}, Order{{1.0, 20.0, 0, 0, 0}, 20.0},
+          Order{{1.0, 0.0, 0, 0, 0}, 0.0}, Order{{1.0, 1e6, 1, 0, 0}, 0.0}}) {
+        for (const double jerk : {0.0, 30'000.0}) {
+            double until_slower_s[2] = {};
+            for (const bool probes : {false, true}) {
+                Control control(machine_of(3, 0.001, jerk));
+                tpc_move move = line_to(60.0, 0.0, 50.0);
+                move.probes = probes ? 1 : 0;
+                REQUIRE(control.add(move) == 0);
+                const auto run = [&](int periods) {
+                    for (int n = 0; n < periods; ++n) {
+                        control.period();
+                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - 50.0) < 0.01 ? 0.001 : 0.0;
+                    }
+                };
+                run(300);
+                CAPTURE(order.speed, order.input.hold, jerk, probes);
+                REQUIRE(control.out.speed == Approx(50.0));
+                until_slower_s[probes ? 1 : 0] = 0.0;
+                control.input = order.input;
+                run(250);
+                CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
+                control.input = {1.0, 1e6, 0, 0, 0};
+                control.until_over();
+                CHECK(control.out.position[0] == 60.0);
+                CHECK(control.use() <= 1.0001);
+            }
+            CHECK(until_slower_s[1] < until_slower_s[0]);
+        }
+    }
+}
+
 TEST_CASE("a hundred thousand short moves", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     double angle = 0.0;
