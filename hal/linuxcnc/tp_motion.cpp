@@ -125,9 +125,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
         set_directions(element, end_, out);
         linear = true;
     }
-    const double feed_scale = linear ? machine_.mm_per_unit : 1.0;
-    element.feed_mm_s = from.feed * feed_scale;
-    element.max_feed_mm_s = from.max_feed * feed_scale;
+    element.feed_mm_s = from.feed * (linear ? machine_.mm_per_unit : 1.0);
     PerAxis<Position> start{};
     for (const unsigned k : indices(machine_.axes)) {
         start[k] = position_from_mm(end_[k]);
