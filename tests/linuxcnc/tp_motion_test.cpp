@@ -284,6 +284,35 @@ TEST_CASE("the motion follows override, slider and hold at once, while it probes
     }
 }
 
+TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {
+    for (const double mm_per_unit : {1.0, 25.4}) {
+        tpc_machine machine = machine_of(3, 0.001, 0.0);
+        machine.mm_per_unit = mm_per_unit;
+        for (unsigned k = 0; k < 3; ++k) {
+            machine.velocity[k] /= mm_per_unit;
+            machine.acceleration[k] /= mm_per_unit;
+        }
+        const double feed = 50.0 / mm_per_unit;
+        const double tolerance = 0.05 / mm_per_unit;
+        const double side = 20.0 / mm_per_unit;
+        Control control(machine);
+        REQUIRE(control.add(line_to(side, 0.0, feed, tolerance)) == 0);
+        REQUIRE(control.add(line_to(side, side, feed, tolerance)) == 0);
+        double fastest = 0.0;
+        double to_corner = side;
+        while (control.out.first != control.out.last) {
+            control.period();
+            fastest = std::max(fastest, control.out.speed);
+            to_corner = std::min(to_corner, std::hypot(control.out.position[0] - side, control.out.position[1]));
+        }
+        CAPTURE(mm_per_unit);
+        CHECK(fastest == Approx(feed));
+        CHECK(to_corner < tolerance + feed * 0.0005); // and half a period's way
+        CHECK(to_corner > 0.5 * tolerance);
+        CHECK(control.use() <= 1.0001);
+    }
+}
+
 TEST_CASE("a hundred thousand short moves", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     double angle = 0.0;
