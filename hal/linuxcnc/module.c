@@ -61,13 +61,21 @@ static int has_jerk(void) {
     return 0;
 }
 
+/* Of the i-th of axes. One number alone is for all. */
+static int jerk_of(int i) {
+    for (int k = 1; k < tpc_axes; ++k) {
+        if (jerk[k] > 0) return jerk[i];
+    }
+    return jerk[0];
+}
+
 void module_axes(struct tpc_machine *machine) {
     machine->axes = 0;
     for (int k = 0; k < tpc_axes; ++k) {
         if (k >= 3 && !module_has_axis(k)) continue;
         double limit = 0.0;
         for (int i = 0; axes[i] != 0; ++i) {
-            if (place_of(axes[i]) == k) limit = jerk[i] > 0 || jerk[1] > 0 ? jerk[i] : jerk[0];
+            if (place_of(axes[i]) == k) limit = jerk_of(i);
         }
         machine->jerk[machine->axes] = limit;
         machine->axis[machine->axes++] = k;
@@ -142,15 +150,17 @@ static int export_figures(void) {
 static const char *wrong(void) {
     if (axes == 0 || axes[0] == 0 || strlen(axes) > tpc_axes) return "axes must name one to nine axes";
     for (const char *a = axes; *a != 0; ++a) {
-        if (place_of(*a) < 0 || strchr(a + 1, *a) != 0) return "axes must be letters of XYZABCUVW, each once";
+        if (place_of(*a) < 0 || strchr(a + 1, *a) != 0 || strchr(a + 1, *a ^ 32) != 0) return "axes must be letters of XYZABCUVW, each once";
     }
     if (!module_has_axis(0) && !module_has_axis(1) && !module_has_axis(2)) return "axes must name X, Y or Z";
     for (int i = 0; i < tpc_axes; ++i) {
         if (jerk[i] < 0) return "jerk must not be negative";
+        if (jerk[i] > 0 && i >= (int)strlen(axes)) return "jerk must not have more numbers than axes has letters";
     }
+    if (inch != 0 && inch != 1) return "inch must be 0 or 1";
     if (tolerance_um < 1 || tolerance_um > 100000) return "tolerance_um must be 1 to 100000";
     if (share < 1 || share > 90) return "share must be 1 to 90";
-    if (ahead < 0 || ahead > 64) return "ahead must be 0 to 64";
+    if (ahead != 0 && (ahead < 3 || ahead > 64)) return "ahead must be 3 to 64, or 0";
     if (idle_ms < 1 || idle_ms > 10000) return "idle_ms must be 1 to 10000";
     return starve < 0 || starve > 100 ? "starve must be 0 to 100" : 0;
 }

@@ -180,7 +180,6 @@ static double synced_feed(TP_STRUCT *tp) {
 static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, const struct new_move *from) {
     const int synced = tp->synchronized == TC_SYNC_VELOCITY;
     move->feed = synced ? synced_feed(tp) : feed_of(from->canon, from->vel, from->max_vel, from->tag);
-    move->max_feed = 0.0;
     move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
                  : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
                                                       : TPC_CONTINUOUS;

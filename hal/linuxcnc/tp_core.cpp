@@ -12,10 +12,6 @@ splinefeed::linuxcnc::TpMotion motion;
 
 extern "C" {
 
-unsigned long tpc_bytes(void) {
-    return sizeof motion;
-}
-
 void tpc_create(const tpc_settings* settings, const tpc_machine* machine) {
     motion.create(*settings, *machine);
 }

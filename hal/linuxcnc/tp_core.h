@@ -2,7 +2,7 @@
  * tp_core.h: the motion core as the C side of the module sees it. Plain types: LinuxCNC's headers are C, and declare
  * other things when they see C++. Lengths in the machine's units (mm or inches, degrees), times in seconds.
  *
- * All of it but tpc_bytes() and tpc_create() is called in the servo thread. Nothing takes memory, waits or locks. */
+ * All of it but tpc_create() is called in the servo thread. Nothing takes memory, waits or locks. */
 #ifndef SPLINEFEED_TP_CORE_H
 #define SPLINEFEED_TP_CORE_H
 
@@ -32,7 +32,7 @@ struct tpc_move {
     int probes;        /* few segments are ready while it runs */
     double to[tpc_axes];
     double centre[3], normal[3], sweep_rad;
-    double tolerance, feed, max_feed; /* max_feed 0: none */
+    double tolerance, feed;
 };
 
 struct tpc_input {
@@ -57,8 +57,6 @@ struct tpc_figures {
     unsigned late;   /* periods without a segment in motion: never */
 };
 
-/* Memory of the core. */
-unsigned long tpc_bytes(void);
 struct tpc_settings {
     long long (*now_ns)(void); /* a clock */
     double share;              /* of a period that planning may take */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tp_motion.hpp"
 
+#include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
 
 #include <cmath>
@@ -124,9 +125,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
         set_directions(element, end_, out);
         linear = true;
     }
-    const double feed_scale = linear ? machine_.mm_per_unit : 1.0;
-    element.feed_mm_s = from.feed * feed_scale;
-    element.max_feed_mm_s = from.max_feed * feed_scale;
+    element.feed_mm_s = from.feed * (linear ? machine_.mm_per_unit : 1.0);
     PerAxis<Position> start{};
     for (const unsigned k : indices(machine_.axes)) {
         start[k] = position_from_mm(end_[k]);
@@ -150,16 +149,16 @@ int TpMotion::add(const tpc_move& from) noexcept {
 void TpMotion::begin(const tpc_machine& machine) noexcept {
     machine_ = machine;
     share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
-    const Status begun = begin_path();
-    error_ = begun.ok() ? nullptr : describe(begun.error());
-    planning_ = begun.ok();
+    error_ = begin_path();
+    planning_ = error_ == nullptr;
 }
 
-Status TpMotion::begin_path() noexcept {
+// What is wrong; nullptr: nothing.
+const char* TpMotion::begin_path() noexcept {
     const MachineSettings settings = settings_of(machine_);
     const auto made = MotionLimits<double>::make(settings);
     if (!made.has_value()) {
-        return Error::planner_unsuited;
+        return describe(made.error());
     }
     limits_ = *made;
     rules_ = path_rules(settings);
@@ -169,12 +168,12 @@ Status TpMotion::begin_path() noexcept {
         start[k] = position_from_mm(at_[k]);
     }
     if (const Status started = path.start(start); !started.ok()) {
-        return started;
+        return describe(started.error());
     }
     Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
     const auto trajectory = Trajectory<double>::make(path, limits_, planner);
     if (!trajectory.has_value()) {
-        return trajectory.error();
+        return describe(trajectory.error());
     }
     trajectory_ = *trajectory;
     base_ = floor_ = pushed_;
@@ -183,7 +182,7 @@ Status TpMotion::begin_path() noexcept {
     sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
     sent_ratio_ = 1.0;
     sent_max_ = no_limit_mm_s;
-    return {};
+    return nullptr;
 }
 
 void TpMotion::steer(const tpc_input& input) noexcept {

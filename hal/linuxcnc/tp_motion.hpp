@@ -60,7 +60,7 @@ private:
     void forget() noexcept;
     void steer(const tpc_input& input) noexcept;
     void plan() noexcept;
-    [[nodiscard]] Status begin_path() noexcept;
+    [[nodiscard]] const char* begin_path() noexcept;
     bool push_one(bool release) noexcept;
     bool push_moves() noexcept;
     [[nodiscard]] bool released() noexcept;

@@ -8,8 +8,11 @@
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
+#include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
+
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 using namespace splinefeed::linuxcnc;
@@ -217,6 +220,13 @@ TEST_CASE("moves of no length are left out, and what cannot be is refused before
     CHECK(control.add(arc) == static_cast<int>(splinefeed::Error::arc_invalid));
     control.period();
     CHECK(control.places.back()[0] == 0.0);
+    tpc_machine standing = machine_of(3, 0.001, 0.0); // an INI file without a velocity
+    standing.velocity[1] = 0.0;
+    Control refused(standing);
+    REQUIRE(refused.add(line_to(1.0, 0.0, 50.0)) == 0);
+    refused.period();
+    CHECK(std::string(refused.out.error) == splinefeed::describe(splinefeed::LimitError::velocity_out_of_range));
+    CHECK(refused.out.first == refused.out.last);
 }
 
 TEST_CASE("a move that waits for the spindle begins when it may, after a stop", "[linuxcnc]") {
@@ -234,6 +244,73 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
     control.until_over();
     CHECK(control.out.position[0] == 20.0);
     CHECK(control.use() <= 1.0001);
+}
+
+TEST_CASE("the motion follows override, slider and hold at once, while it probes sooner", "[linuxcnc]") {
+    struct Order {
+        tpc_input input;
+        double speed; // mm/s, where 50 are programmed
+    };
+    for (const Order& order :
+         {Order{{0.5, 1e6, 0, 0, 0}, 25.0}, Order{{1.6, 1e6, 0, 0, 0}, 80.0}, Order{{1.0, 20.0, 0, 0, 0}, 20.0},
+          Order{{1.0, 0.0, 0, 0, 0}, 0.0}, Order{{1.0, 1e6, 1, 0, 0}, 0.0}}) {
+        for (const double jerk : {0.0, 30'000.0}) {
+            double until_slower_s[2] = {};
+            for (const bool probes : {false, true}) {
+                Control control(machine_of(3, 0.001, jerk));
+                tpc_move move = line_to(60.0, 0.0, 50.0);
+                move.probes = probes ? 1 : 0;
+                REQUIRE(control.add(move) == 0);
+                const auto run = [&](int periods) {
+                    for (int n = 0; n < periods; ++n) {
+                        control.period();
+                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - 50.0) < 0.01 ? 0.001 : 0.0;
+                    }
+                };
+                run(300);
+                CAPTURE(order.speed, order.input.hold, jerk, probes);
+                REQUIRE(control.out.speed == Approx(50.0));
+                until_slower_s[probes ? 1 : 0] = 0.0;
+                control.input = order.input;
+                run(250);
+                CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
+                control.input = {1.0, 1e6, 0, 0, 0};
+                control.until_over();
+                CHECK(control.out.position[0] == 60.0);
+                CHECK(control.use() <= 1.0001);
+            }
+            CHECK(until_slower_s[1] < until_slower_s[0]);
+        }
+    }
+}
+
+TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {
+    for (const double mm_per_unit : {1.0, 25.4}) {
+        tpc_machine machine = machine_of(3, 0.001, 0.0);
+        machine.mm_per_unit = mm_per_unit;
+        for (unsigned k = 0; k < 3; ++k) {
+            machine.velocity[k] /= mm_per_unit;
+            machine.acceleration[k] /= mm_per_unit;
+        }
+        const double feed = 50.0 / mm_per_unit;
+        const double tolerance = 0.05 / mm_per_unit;
+        const double side = 20.0 / mm_per_unit;
+        Control control(machine);
+        REQUIRE(control.add(line_to(side, 0.0, feed, tolerance)) == 0);
+        REQUIRE(control.add(line_to(side, side, feed, tolerance)) == 0);
+        double fastest = 0.0;
+        double to_corner = side;
+        while (control.out.first != control.out.last) {
+            control.period();
+            fastest = std::max(fastest, control.out.speed);
+            to_corner = std::min(to_corner, std::hypot(control.out.position[0] - side, control.out.position[1]));
+        }
+        CAPTURE(mm_per_unit);
+        CHECK(fastest == Approx(feed));
+        CHECK(to_corner < tolerance + feed * 0.0005); // and half a period's way
+        CHECK(to_corner > 0.5 * tolerance);
+        CHECK(control.use() <= 1.0001);
+    }
 }
 
 TEST_CASE("a hundred thousand short moves", "[linuxcnc]") {
