@@ -14,11 +14,18 @@
 
 namespace splinefeed::host {
 
-/// A JerkPlanner and its memory.
+/// A JerkPlanner and its memory. It looks a quarter as far ahead as its window: what it plans far ahead is planned
+/// again later.
 template <Scalar S, Floating R>
 struct JerkMemory {
-    JerkMemory(std::span<PlannedCell<S>> window, std::size_t size)
-        : cells(size), nodes(size + 1), scratch(size + 1), planner(window, {cells, nodes, scratch}) {}
+    explicit JerkMemory(std::span<PlannedCell<S>> window)
+        : cells(cells_of(window.size())), nodes(cells.size() + 1), scratch(nodes.size()),
+          planner(window, {cells, nodes, scratch}) {}
+
+    [[nodiscard]] static std::size_t cells_of(std::size_t window) noexcept {
+        const std::size_t ahead = std::max(window / 4, JerkPlan<S, double>::smallest_window);
+        return ahead + std::min(ahead / 3, JerkWindow<S, double>::most_spare); // a quarter is free
+    }
 
     [[nodiscard]] std::size_t bytes() const noexcept {
         return sizeof planner + cells.size() * sizeof cells[0] + nodes.size() * (sizeof nodes[0] + sizeof scratch[0]);
@@ -33,21 +40,15 @@ struct JerkMemory {
 template <Scalar S>
 class PlannedTrajectory {
 public:
-    /// A JerkPlanner looks a quarter as far ahead: what it plans far ahead is planned again later.
-    static constexpr std::size_t cells_a_jerk_cell = 4;
-
     /// All arguments must outlive it.
     PlannedTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, const PlannerChoice& choice)
         : window_(choice.window_cells) {
         Planner<S>* planner = nullptr;
         if constexpr (!std::same_as<S, float>) { // which does not suffice for limits with jerk
-            const std::size_t smallest = JerkPlan<S, double>::smallest_window;
-            const std::size_t cells = std::max(choice.window_cells / cells_a_jerk_cell, smallest);
-            const std::size_t all = cells + std::min(cells / 3, JerkWindow<S, double>::most_spare); // a quarter is free
             if (limits.jerk_limited && choice.jerk_scalar == ScalarKind::float32) {
-                planner = &in_float_.emplace(window_, all).planner;
+                planner = &in_float_.emplace(window_).planner;
             } else if (limits.jerk_limited) {
-                planner = &in_double_.emplace(window_, all).planner;
+                planner = &in_double_.emplace(window_).planner;
             }
         }
         trajectory_ =

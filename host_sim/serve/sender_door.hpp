@@ -38,7 +38,7 @@ public:
     virtual void watch_input(std::function<void(std::string_view line)> line) = 0;
     /// Waits for what comes, and passes it on.
     virtual void wait(std::chrono::microseconds longest) = 0;
-    /// To the sender that has the machine.
+    /// To the sender that has the machine: whole lines.
     virtual void send(std::string_view text) = 0;
     [[nodiscard]] virtual bool has_sender() const noexcept = 0;
 

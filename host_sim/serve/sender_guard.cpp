@@ -18,16 +18,12 @@ bool acts(char c) {
 
 } // namespace
 
-// A request line, or the field that HTTP/1.1 demands.
+// A request line, whose method a page may choose, or the field that HTTP/1.1 demands.
 bool is_http(std::string_view line) {
-    const std::size_t word = line.find(' ');
-    const bool method = word != std::string_view::npos && word > 0 &&
-                        std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(word),
-                                    [](unsigned char c) { return std::isupper(c) != 0; });
     const bool host = line.size() >= 5 && std::equal(line.begin(), line.begin() + 5, "host:", [](char a, char b) {
                           return std::tolower(static_cast<unsigned char>(a)) == b;
                       });
-    return host || (method && line.find(" HTTP/") != std::string_view::npos);
+    return host || line.find(" HTTP/") != std::string_view::npos;
 }
 
 bool SenderGuard::take(std::string_view bytes, std::string& out) {

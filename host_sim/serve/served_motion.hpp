@@ -7,7 +7,6 @@
 
 #include "splinefeed/controller/scalar_motion.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -30,9 +29,9 @@ private:
         if (!limits_.jerk_limited) {
             return acceleration_.emplace(window_);
         }
-        const std::size_t cells = window_.size() / PlannedTrajectory<Fixed>::cells_a_jerk_cell;
-        return jerk_.emplace(window_, cells + std::min(cells / 3, JerkWindow<Fixed, double>::most_spare)).planner;
+        return jerk_.emplace(window_).planner;
     }
+
     MotionLimits<Fixed> limits_;
     std::vector<PlannedCell<Fixed>> window_;
     std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two

@@ -4,8 +4,6 @@
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/serve/console.hpp"
 
-#include <array>
-
 namespace splinefeed::host {
 
 namespace {
@@ -21,7 +19,7 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 Server::Server(const ControllerSettings& settings, ServedMotion& motion, SimulatedTool& tool, StateKeeper* state,
                const MachineState& begins, bool says)
     : motion_(&motion.motion()), tool_(&tool), state_(state), lines_(line_memory), answers_(answer_memory),
-      controller_(settings, *motion_, tool, {lines_, answers_}), says_(says) {
+      text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says) {
     motion_->interpreter().restore(begins.offsets);
     door_ = make_sender_door({
         .opened =
@@ -84,9 +82,8 @@ void Server::step() {
 }
 
 void Server::answer() {
-    std::array<char, 4096> text{};
-    while (const std::size_t size = controller_.take_answers(text)) {
-        const std::string_view part(text.data(), size);
+    while (const std::size_t size = controller_.take_answers(text_)) { // all of them: none is cut
+        const std::string_view part(text_.data(), size);
         door_->send(part);
         if (says_ && !door_->has_sender()) {
             tell(part);

@@ -41,6 +41,7 @@ private:
     StateKeeper* state_;
     std::vector<char> lines_;
     std::vector<char> answers_;
+    std::vector<char> text_; // of them, on its way
     Controller controller_;
     std::unique_ptr<SenderDoor> door_;
     Clock::time_point start_ = Clock::now();

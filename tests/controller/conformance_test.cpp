@@ -61,6 +61,11 @@ public:
         if (command == ">") {
             tool_.send(unescaped(rest));
             wait(1);
+        } else if (command == "times") {
+            const std::size_t space = rest.find(' ');
+            for (int n = std::stoi(rest.substr(0, space)); n > 0; --n) {
+                tool_.send(unescaped(rest.substr(space + 1)));
+            }
         } else if (command == "<") {
             expect(rest);
         } else if (command == "wait") {

@@ -16,7 +16,7 @@ import time
 from sender import Failed, Sender, Server
 
 HERE = pathlib.Path(__file__).resolve().parent
-VIRTUAL = {"machine", "told", "way", "connect", "disconnect"}
+VIRTUAL = {"machine", "told", "way", "connect", "disconnect", "times"}
 # They count on the time of the host to some milliseconds.
 TIMED = {"a dwell is answered when it is over", "a second reset stops off the path", "a feed override", "an override of rapids acts on rapids alone",
          "a feed override does not act on jogs", "hold and resume", "no jog while a program runs"}

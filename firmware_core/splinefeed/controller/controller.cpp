@@ -42,6 +42,9 @@ void Controller::disconnect() noexcept {
     if (state() == ControllerState::run || state() == ControllerState::jog) {
         hold();
     }
+    if (ending_ != Ending::none || task_ == Task::home) { // what would begin behind that has nobody to watch it
+        forget_lines();
+    }
 }
 
 void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept {

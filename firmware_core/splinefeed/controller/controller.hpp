@@ -94,6 +94,10 @@ private:
     void refuse_block(const BlockStatus& status) noexcept;
     void accept() noexcept;
     [[nodiscard]] bool answers_nobody() noexcept;
+    void forget_lines() noexcept {
+        lines_.clear();
+        refused_lines_ = of_another_ = 0;
+    }
 
     // controller_motion.cpp
     [[nodiscard]] bool step() noexcept;

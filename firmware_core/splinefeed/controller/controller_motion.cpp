@@ -309,7 +309,7 @@ void Controller::begin_ending(Ending ending) noexcept {
             accept();
         }
     }
-    lines_.clear();
+    forget_lines();
     task_ = Task::none;
     ending_ = ending;
     motion_->abort();
@@ -381,7 +381,6 @@ void Controller::end_reset() noexcept {
     locked_ = locked_ || row_of(alarm_).stays;
     alarm_ = Alarm::none;
     overrides_ = {};
-    refused_lines_ = of_another_ = 0;
     line_number_ = 0;
     check_ = sleep_ = tool_ = door_ = closes_ = false;
     status_.refresh();

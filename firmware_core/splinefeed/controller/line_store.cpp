@@ -23,12 +23,14 @@ void LineStore::note_comment(char c) noexcept {
 
 bool LineStore::add(char c) noexcept {
     const bool second = c == '\n' && after_return_;
-    after_return_ = c == '\r';
+    after_return_ = false;
     if (second) {
         return true;
     }
     if (c == '\r' || c == '\n') {
-        return end_line();
+        const bool kept = end_line();
+        after_return_ = c == '\r';
+        return kept;
     }
     note_comment(c);
     const bool closes = comment_ == '(' && c == ')';
@@ -65,7 +67,7 @@ void LineStore::drop_partial() noexcept {
     used_ -= partial_;
     partial_ = 0;
     comment_ = '\0';
-    too_long_ = lost_ = false;
+    too_long_ = lost_ = after_return_ = false;
 }
 
 void LineStore::clear() noexcept {

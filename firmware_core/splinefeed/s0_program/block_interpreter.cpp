@@ -116,6 +116,16 @@ void BlockInterpreter::set_probe(bool contact, const AxisPoint& program) noexcep
     results_.probe_contact = contact;
 }
 
+BlockStatus BlockInterpreter::read_block(std::string_view text, std::uint32_t line_number, LineKind& kind) noexcept {
+    discard_assignments(); // of a line that was refused
+    line_ = line_number;
+    const BlockStatus status = reader_.read(text, *this, block_, kind);
+    plan_.clear();
+    sub_step_ = 0;
+    offsets_changed_ = false;
+    return status;
+}
+
 BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_number) noexcept {
     if (ended_) {
         return {};
@@ -124,13 +134,8 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         return {ProgramError::block_pending, 0, 0};
     }
     cutter_.drop_plan();
-    discard_assignments(); // of a line that was refused
     LineKind kind = LineKind::block;
-    line_ = line_number;
-    BlockStatus status = reader_.read(text, *this, block_, kind);
-    plan_.clear();
-    sub_step_ = 0;
-    offsets_changed_ = false;
+    BlockStatus status = read_block(text, line_number, kind);
     if (status.ok() && kind == LineKind::percent) {
         status = execute_percent();
     } else if (status.ok() && kind == LineKind::homing) {

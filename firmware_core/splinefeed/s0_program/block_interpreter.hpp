@@ -99,6 +99,7 @@ private:
 
     BlockStatus execute() noexcept;
     BlockStatus execute_words(const BlockUse& use) noexcept;
+    BlockStatus read_block(std::string_view text, std::uint32_t line_number, LineKind& kind) noexcept;
     [[nodiscard]] BlockStatus check_jog() const noexcept; // jog_words.cpp
     void obey_modes() noexcept;
     BlockStatus execute_percent() noexcept;

@@ -30,7 +30,6 @@ BlockStatus BlockInterpreter::push_jog(std::string_view text, std::uint32_t line
     if (has_steps() || in_pieces_) {
         return {ProgramError::block_pending, 0, 0};
     }
-    discard_assignments();
     const ModalState modal = modal_;
     const bool ended = ended_;
     modal_.motion = 10;
@@ -38,11 +37,7 @@ BlockStatus BlockInterpreter::push_jog(std::string_view text, std::uint32_t line
     modal_.inverse_time = modal_.per_turn = false;
     modal_.path_mode = PathMode::exact_path;
     LineKind kind = LineKind::block;
-    line_ = line_number;
-    BlockStatus status = reader_.read(text, *this, block_, kind);
-    plan_.clear();
-    sub_step_ = 0;
-    offsets_changed_ = false;
+    BlockStatus status = read_block(text, line_number, kind);
     if (status.ok()) {
         status = kind == LineKind::block ? check_jog() : BlockStatus{ProgramError::jog_word_unsuited, 0, 1};
     }
