@@ -21,51 +21,54 @@ std::string shown(double number) {
 
 } // namespace
 
-void WaypointCheck::refuse(const std::string& text) const {
+void WaypointCheck::refuse(std::uint64_t line, const std::string& text) const {
     if (!text.empty()) {
-        throw InputError(name_, rows_, text);
+        throw InputError(name_, line, text);
     }
 }
 
 WaypointRow WaypointCheck::row(const WaypointTable& table, std::size_t index) {
     WaypointRow row;
-    row.line = ++rows_;
+    row.line = rows_ + 1;
     for (unsigned k = 0; k < table.columns; ++k) {
         const double mm = table.position_mm[index * table.columns + k];
         if (!position_representable(mm)) {
-            refuse(position_refusal(axes_[k], mm, shown(mm)));
+            refuse(row.line, position_refusal(axes_[k], mm, shown(mm)));
         }
         if (last_) {
-            refuse(move_refusal(axes_[k], last_->position[k], mm));
+            refuse(row.line, move_refusal(axes_[k], last_->position[k], mm));
         }
         row.position[k] = mm;
     }
     const auto feed = [&](const std::vector<double>& column, std::string_view name, double& out) {
         if (const double mm_s = field(column, index); !std::isnan(mm_s)) {
-            refuse(feed_refusal(name, mm_s, shown(mm_s)));
+            refuse(row.line, feed_refusal(name, mm_s, shown(mm_s)));
             out = mm_s;
         }
     };
     feed(table.feed_mm_s, "feed", row.feed_mm_s);
     feed(table.max_feed_mm_s, "max_feed", row.max_feed_mm_s);
     if (const double mm = field(table.tolerance_mm, index); !std::isnan(mm)) {
-        refuse(tolerance_refusal(mm, shown(mm)));
+        refuse(row.line, tolerance_refusal(mm, shown(mm)));
         row.tolerance_mm = mm;
     }
     if (const double corner = field(table.corner, index); !std::isnan(corner)) {
         if (corner != 0.0 && corner != 1.0) {
-            refuse(fmt::format("corner is {}; it must be 1 (a corner), 0 (none) or nan (the corner angle decides)",
+            refuse(row.line,
+                   fmt::format("corner is {}; it must be 1 (a corner), 0 (none) or nan (the corner angle decides)",
                                corner));
         }
         row.corner = corner == 1.0 ? Corner::forced : Corner::forbidden;
     }
     last_ = row;
+    ++rows_;
     return row;
 }
 
 void WaypointCheck::finish() const {
     if (rows_ < 2) {
-        refuse(rows_ == 0 ? "there is no waypoint; a path needs two" : "there is a single waypoint; a path needs two");
+        refuse(rows_,
+               rows_ == 0 ? "there is no waypoint; a path needs two" : "there is a single waypoint; a path needs two");
     }
 }
 

@@ -38,7 +38,7 @@ public:
     void finish() const;
 
 private:
-    void refuse(const std::string& text) const;
+    void refuse(std::uint64_t line, const std::string& text) const;
 
     std::string name_;
     std::vector<std::string> axes_;

@@ -78,7 +78,7 @@ PYBIND11_MODULE(_native, module) {
                   offsetof(FeedSegment, start) == 16); // as _motion.segment_dtype has it
     module.attr("version") = SPLINEFEED_VERSION;
     module.attr("units_per_count") = units_per_count;
-    module.attr("ticks_per_s") = 8'000'000;
+    module.attr("ticks_per_s") = ticks_per_us * 1'000'000;
     module.attr("curve_names") = py::cast([] {
         std::vector<std::string> names;
         for (const std::string_view name : host::curve_names()) {

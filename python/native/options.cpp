@@ -149,10 +149,13 @@ RunArguments read_options(const py::dict& options) {
     for (const auto& [key, value] : options) {
         const auto name = py::cast<std::string>(key);
         if (const Flag* const flag = find_row(flags, name)) {
+            if (!py::isinstance<py::bool_>(value)) {
+                throw py::type_error(name + " must be True or False");
+            }
             flag->of(out) = py::cast<bool>(value);
             continue;
         }
-        const auto text = py::cast<std::string>(value);
+        const auto text = py::cast<std::string>(py::str(value));
         if (const CurveText* const of_curve = find_row(curve_texts, name)) {
             out.path.curve.*of_curve->value = text;
         } else if (const GcodeText* const of_gcode = find_row(gcode_texts, name)) {

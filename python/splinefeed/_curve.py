@@ -106,7 +106,7 @@ class Curve:
         for _ in range(40):
             middle = 0.5 * (low + high)
             left, right = self._lengths(low, middle), self._lengths(middle, high)
-            open_ = np.abs(left + right - whole) > 1e-12 * np.maximum(whole, 1e-9)
+            open_ = np.abs(left + right - whole) > 1e-12 * np.maximum(np.abs(whole), 1e-9)
             total += float(np.sum((left + right)[~open_]))
             if not open_.any():
                 return total

@@ -2,6 +2,7 @@
 """Machines: what a machine file states."""
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Union
@@ -14,10 +15,10 @@ PerAxis = Union[float, Sequence[Union[float, None]], Mapping[str, float], None]
 
 
 def _toml(value: Any) -> str:
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return json.dumps(value, ensure_ascii=False)
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
@@ -25,16 +26,18 @@ def _toml(value: Any) -> str:
     return "[" + ", ".join(_toml(part) for part in value) + "]"
 
 
-def _one(value: Any, axis: str, number: int, count: int, pairs: bool) -> Any:
+def _one(value: Any, axes: Sequence[str], number: int, pairs: bool) -> Any:
     """What one axis has of an argument: the value itself, or its part of a sequence or a mapping."""
     if isinstance(value, Mapping):
-        return value.get(axis)
+        if unknown := [name for name in value if name not in axes]:
+            raise ValueError(f"there is no axis {unknown[0]!r}; the axes are {', '.join(axes)}")
+        return value.get(axes[number])
     if isinstance(value, str) or not isinstance(value, (Sequence, np.ndarray)):
         return value
     if pairs and all(isinstance(part, (int, float, np.number)) for part in value):
         return value
-    if len(value) != count:
-        raise ValueError(f"there are {len(value)} values for {count} axes: {list(value)}")
+    if len(value) != len(axes):
+        raise ValueError(f"there are {len(value)} values for {len(axes)} axes: {list(value)}")
     return value[number]
 
 
@@ -76,7 +79,7 @@ class Machine:
         for number, axis in enumerate(axes):
             lines += ["[[axis]]", f"name = {_toml(axis)}"]
             for key, value in of_axis.items():
-                one = _one(value, axis, number, len(axes), key == "travel_mm")
+                one = _one(value, axes, number, key == "travel_mm")
                 lines += [f"{key} = {_toml(one)}"] if one is not None else []
         self._hold(_native.parse_machine("\n".join(lines) + "\n", "machine"), "\n".join(lines) + "\n")
 
@@ -120,3 +123,10 @@ class Machine:
 
     def __repr__(self) -> str:
         return f"<splinefeed.Machine {self.name!r}: {', '.join(self.axes)}>"
+
+
+def machine_or_default(machine: Machine | None) -> Machine:
+    """The machine; None: Machine.default()."""
+    if machine is not None and not isinstance(machine, Machine):
+        raise TypeError(f"machine must be a Machine, not {machine!r}; Machine.from_toml() reads a file")
+    return machine or Machine.default()

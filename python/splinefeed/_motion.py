@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _native
 from ._errors import SplinefeedWarning
-from ._machine import Machine
+from ._machine import Machine, machine_or_default
 from ._options import column_of, is_file, options_of, points_of
 
 
@@ -153,7 +153,7 @@ def plan(points: Any, machine: Machine | None = None, curve: str = "g2", *, feed
     Raises:
         InputError, UsageError.
     """
-    machine = machine or Machine.default()
+    machine = machine_or_default(machine)
     points = points_of(points)
     rows = len(points)
     per_point = tolerance_mm is not None and np.ndim(tolerance_mm) > 0
@@ -208,7 +208,7 @@ def plan_elements(elements: Any, machine: Machine | None = None, *, tolerance_mm
 
 
 def _plan_program(kind: str, program: Any, machine: Machine | None, options: dict[str, str | bool]) -> Motion:
-    machine = machine or Machine.default()
+    machine = machine_or_default(machine)
     text = not is_file(program)
     native = _native.plan_program(machine._native, kind, program if text else os.fspath(program), text, options)
     return Motion(native, machine)

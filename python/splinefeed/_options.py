@@ -15,6 +15,8 @@ def text_of(value: Any) -> str:
         return value
     if isinstance(value, os.PathLike):
         return os.fspath(value)
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, numbers.Integral):
         return str(int(value))
     if isinstance(value, numbers.Real):
@@ -24,7 +26,7 @@ def text_of(value: Any) -> str:
 
 def options_of(**options: Any) -> dict[str, str | bool]:
     """Those that are not None."""
-    return {name: value if isinstance(value, bool) else text_of(value)
+    return {name: bool(value) if isinstance(value, (bool, np.bool_)) else text_of(value)
             for name, value in options.items() if value is not None}
 
 
@@ -40,9 +42,9 @@ def column_of(value: Any, rows: int) -> np.ndarray | None:
     """One number for each row; None and True, False become nan, 1, 0."""
     if value is None:
         return None
-    if isinstance(value, np.ndarray):
-        return np.array(np.broadcast_to(value, (rows,)) if value.ndim == 0 else value, dtype=np.float64)
-    if isinstance(value, numbers.Real):
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return np.array(value, dtype=np.float64)
+    if isinstance(value, np.ndarray) or np.isscalar(value):
         return np.full(rows, float(value))
     return np.array([np.nan if one is None else float(one) for one in value])
 

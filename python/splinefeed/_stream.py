@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from ._machine import Machine
+from ._machine import Machine, machine_or_default
 from ._motion import segment_dtype
 from ._options import column_of, options_of
 
@@ -26,7 +26,7 @@ class Stream:
 
     def __init__(self, machine: Machine | None = None, curve: str = "g2", *, scalar: str = "fixed", window: int = 1024,
                  jerk_scalar: str = "double", **options: Any) -> None:
-        self._machine = machine or Machine.default()
+        self._machine = machine_or_default(machine)
         given = options_of(curve=curve, scalar=scalar, window=window, jerk_scalar=jerk_scalar, **options)
         self._native = _native.Stream(self._machine._native, given)
         self._dtype = segment_dtype(len(self._machine.axes))
@@ -85,4 +85,6 @@ class Stream:
 
     def override(self, ratio: float) -> None:
         """Factor of the wanted speed, 0 to 2. The limits of the machine still apply."""
+        if not 0.0 <= ratio <= 2.0:
+            raise ValueError(f"an override must lie between 0 and 2, and is {ratio}")
         self._native.override(ratio)

@@ -60,6 +60,10 @@ TEST_CASE("rows of a table are those of a file with the same columns") {
 
     PushedRows pushed(WaypointCheck("table", {"x", "y", "z"}));
     CHECK_FALSE(pushed.wait({}));
+    WaypointTable wrong = table();
+    wrong.position_mm[0] = HUGE_VAL;
+    CHECK(refusal_of([&] { pushed.push(wrong); }) ==
+          "table:1: x 'inf' is out of range; a position must lie within +-1048576 mm"); // it is no row
     pushed.push(table());
     require_same(all(pushed), expected);
     CHECK_FALSE(pushed.wait({}));

@@ -48,14 +48,14 @@ class Planning(Scratch):
         g = "G21 G90 F3000\nG0 X1 Y1\nG64 P0.02\n" + "".join(f"G1 X{i % 7} Y{i}\n" for i in range(30)) + "M2\n"
         (self.folder / "p.ngc").write_text(g)
         self.same_as_the_command(splinefeed.plan_gcode(g, JERKY), self.folder / "p.ngc")
-        self.same_as_the_command(splinefeed.plan_gcode(self.folder / "p.ngc", JERKY), self.folder / "p.ngc")
+        self.same_as_the_command(splinefeed.plan_gcode(self.folder / "p.ngc", JERKY, scalar="double"), self.folder / "p.ngc", "--scalar", "double")
         self.same_as_the_command(splinefeed.plan_gcode(EXAMPLES / "ring.gcode", dialect="marlin", ignore=["E", "unknown"]),
                                  EXAMPLES / "ring.gcode", "--dialect", "marlin", "--ignore", "E,unknown")
         elements = [{"type": "line", "from": [0, 0, 0], "to": [10, 0, 0]}, {"type": "line", "from": [10, 0, 0], "to": [10, 10, 0], "tolerance_mm": 0.2}]
         (self.folder / "e.json").write_text(json.dumps({"elements": elements}))
         for given in (elements, {"elements": elements}, json.dumps({"elements": elements}), self.folder / "e.json"):
-            self.same_as_the_command(splinefeed.plan_elements(given, JERKY, tolerance_mm=0.05), self.folder / "e.json",
-                                     "--tolerance", "0.05")
+            self.same_as_the_command(splinefeed.plan_elements(given, JERKY, tolerance_mm=0.05, scalar="double"), self.folder / "e.json",
+                                     "--tolerance", "0.05", "--scalar", "double")
         self.same_as_the_command(splinefeed.plan_elements(EXAMPLES / "butterfly.json", JERKY), EXAMPLES / "butterfly.json")
 
     def test_columns_and_options_are_those_of_the_command(self):
@@ -67,8 +67,9 @@ class Planning(Scratch):
         self.same_as_the_command(splinefeed.plan(points, JERKY, feed_mm_s=feed, corner=corner), self.folder / "p.csv")
         np.savetxt(self.folder / "q.csv", points, delimiter=",", fmt="%.17g")
         for options, typed in (({"curve": "catmull-rom", "tension": 0.4, "smooth": True}, "--curve catmull-rom --tension 0.4 --smooth"),
-                               ({"curve": "polyline", "tolerance_mm": 0.3}, "--curve polyline --tolerance 0.3"),
+                               ({"curve": "polyline", "tolerance_mm": np.array(0.3)}, "--curve polyline --tolerance 0.3"),
                                ({"closed": True, "window": 64, "jerk_scalar": "float"}, "--closed --window 64 --jerk-scalar float"),
+                               ({"closed": np.bool_(True)}, "--closed"),
                                ({"start_tangent": np.array([0, 1])}, "--start-tangent 0,1"),
                                ({"curve": "ferguson", "lambda_": 1.5, "mu": "auto"}, "--curve ferguson --lambda 1.5 --mu auto")):
             with self.subTest(typed):
@@ -121,8 +122,9 @@ class Planning(Scratch):
         self.assertIn('"program":"points"', (self.folder / "r.html").read_text().replace(" ", ""))
         with self.assertRaises(OutputError):
             motion.report(self.folder / "none" / "r.html")
-        with self.assertWarnsRegex(splinefeed.SplinefeedWarning, "--dialect marlin"):
+        with self.assertWarnsRegex(splinefeed.SplinefeedWarning, "--dialect marlin") as warned:
             splinefeed.plan_gcode(EXAMPLES / "ring.gcode", dialect="auto", ignore="E,unknown")
+        self.assertEqual(warned.filename, __file__)
 
     def test_a_plot_has_the_path_and_each_axis(self):
         try:
@@ -138,17 +140,22 @@ class Planning(Scratch):
 class Machines(Scratch):
     def test_a_machine_of_arguments_is_one_of_a_file(self):
         machine = Machine("xza", max_feed_mm_s=80, max_velocity_mm_s=[100, 50, 360], max_acceleration_mm_s2={"x": 1000, "z": 500, "a": 2000},
-                          max_jerk_mm_s3=[None, 20000, None], travel_mm=[(-100, 300), None, None], kind=["linear", "linear", "rotary"],
-                          default_tolerance_mm=0.05, sample_period_us=500, name="a \"mill\"")
+                          max_braking_mm_s2=3000, centripetal_mm_s2=700, chord_error_mm=0.01, steps_per_mm=100, max_jerk_mm_s3=[None, 20000, None], travel_mm=[(-100, 300), None, None], kind=["linear", "linear", "rotary"],
+                          default_tolerance_mm=0.05, sample_period_us=500, name="a \"mill\"\n")
         (self.folder / "m.toml").write_text(machine.toml)
         again = Machine.from_toml(self.folder / "m.toml")
         for one in (machine, again):
-            self.assertEqual((one.name, one.axes, one.toml), ('a "mill"', ("x", "z", "a"), machine.toml))
+            self.assertEqual((one.name, one.axes, one.toml), ('a "mill"\n', ("x", "z", "a"), machine.toml))
             np.testing.assert_array_equal(one.limits["max_velocity_mm_s"], [100, 50, 360])
             np.testing.assert_array_equal(one.limits["max_jerk_mm_s3"], [np.nan, 20000, np.nan])
-            self.assertEqual(one.limits["sample_period_us"], 500)
+            for key, value in {"sample_period_us": 500, "max_braking_mm_s2": 3000, "centripetal_mm_s2": 700, "chord_error_mm": 0.01, "steps_per_mm": 100}.items():
+                self.assertTrue(np.all(one.limits[key] == value), key)
         points = noise(20, 3)
         np.testing.assert_array_equal(splinefeed.plan(points, machine).segments, splinefeed.plan(points, again).segments)
+
+    def test_a_mapping_names_axes_that_there_are(self):
+        with self.assertRaisesRegex(ValueError, "there is no axis 'X'; the axes are x, y, z"):
+            Machine("xyz", **LIMITS, max_jerk_mm_s3={"X": 30000})
 
     def test_the_default_machine_is_the_command_s(self):
         default = _native.default_machine().limits
@@ -180,6 +187,9 @@ class Refusals(Scratch):
                 ([[0, 0], [1, 1]], {"curve": "g3"}, UsageError, "--curve 'g3': there is no such method; available are g2,"),
                 ([[0, 0], [1, 1]], {"scalar": "doubl"}, UsageError, "--scalar 'doubl': it must be one of fixed, float, double; did you mean 'double'?"),
                 ([[0, 0], [1, 1]], {"window": 3}, UsageError, "--window '3': it must be a whole number from 10 to 1000000"),
+                ([[0, 0], [1, 1]], {"curve": True}, UsageError, "--curve 'True': there is no such method"),
+                ([[0, 0], [1, 1]], {"closed": 1}, TypeError, "closed must be True or False"),
+                ([[0, 0], [1, 1]], {"machine": "mill.toml"}, TypeError, "machine must be a Machine, not 'mill.toml'; Machine.from_toml() reads a file"),
                 ([[0, 0], [1, 1]], {"tensoin": 1}, TypeError, "there is no argument 'tensoin'; did you mean 'tension'?"),
                 ([[0, 0], [500, 0]], {"machine": Machine("xy", **LIMITS, travel_mm=(0, 300))}, InputError, "axis x goes to 500.000000 mm; its travel_mm is [0, 300]"),
         ):
@@ -231,6 +241,7 @@ class Curves(unittest.TestCase):
         self.assertEqual(curve.evaluate(np.zeros((2, 5))).shape, (2, 5, 3))
         fine = curve.evaluate(np.linspace(0, len(curve), 400_001))
         self.assertAlmostEqual(curve.arc_length(), np.linalg.norm(np.diff(fine, axis=0), axis=1).sum(), 6)
+        self.assertAlmostEqual(curve.arc_length(5.0, 0.3), -curve.arc_length(0.3, 5.0), 9)
         self.assertAlmostEqual(curve.arc_length(0.3, 1.7) + curve.arc_length(1.7, 5.0), curve.arc_length(0.3, 5.0), 9)
         for wrong in (-0.1, len(curve) + 0.1, np.nan):
             with self.assertRaises(ValueError):
@@ -314,6 +325,13 @@ class Streams(Scratch):
             stream.push([1])
         with self.assertRaisesRegex(InputError, "points:1: there is a single waypoint"):
             stream.finish()
+        with self.assertRaisesRegex(InputError, "points:2: y 'nan' is out of range"):
+            stream.push([1, np.nan])
+        with self.assertRaisesRegex(InputError, "points:1: there is a single waypoint"):  # the wrong one does not count
+            stream.finish()
+        for ratio in (-0.1, 2.1, np.nan):
+            with self.assertRaisesRegex(ValueError, "an override must lie between 0 and 2"):
+                stream.override(ratio)
         stream.push([[30, 0], [60, 0]])
         stream.finish()
         with self.assertRaisesRegex(UsageError, "nothing can be pushed behind finish"):
