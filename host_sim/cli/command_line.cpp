@@ -84,6 +84,9 @@ std::string explained(const CLI::ParseError& error) {
     if (text.find("flag override") != std::string_view::npos) {
         return fmt::format("--{} takes no value; leave it out", text.substr(0, text.find(' ')));
     }
+    if (text.find("MACHINE is required") != std::string_view::npos) {
+        return "there is no machine file; name a .toml file, or - for standard input";
+    }
     if (text.find("FILE is required") != std::string_view::npos) {
         return fmt::format("there is no input; name a {} file, or - for standard input", input_formats(" or ", "."));
     }
@@ -276,11 +279,12 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         job.link.machine = job.serve.machine = job.run.machine;
         return job;
     }
+    const bool checks_machine = command.get_name() == "machine";
     if (job.run.path.input.empty()) {
-        throw UsageError(
-            fmt::format("the input has no name; give a {} file, or - for standard input", input_formats(" or ", ".")));
+        throw UsageError(fmt::format("the input has no name; give a {} file, or - for standard input",
+                                     checks_machine ? ".toml" : input_formats(" or ", ".")));
     }
-    if (command.get_name() == "machine") {
+    if (checks_machine) {
         job.command = Command::machine;
         return job;
     }

@@ -6,6 +6,7 @@
 #include "host_sim/ports/target_table.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -101,10 +102,13 @@ void add_gcode_options(CLI::App& app, Job& job) {
     app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1")->group(group)->disable_flag_override();
 }
 
-void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector<std::string>& settings) {
+// @param beside  where a machine.toml counts, or empty
+void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector<std::string>& settings,
+                 const char* beside = "machine.toml beside FILE, else ") {
     app.add_option("-m,--machine", machine,
-                   "machine file (.toml); without it machine.toml beside FILE, else ~/.config/splinefeed/machine.toml, "
-                   "else default: three axes, 100 mm/s, 1000 mm/s^2");
+                   fmt::format("machine file (.toml); without it {}~/.config/splinefeed/machine.toml, else default: "
+                               "three axes, 100 mm/s, 1000 mm/s^2",
+                               beside));
     app.add_option("--set", settings,
                    "KEY=VALUE in the place of what the machine file states: path.max_feed_mm_s=200, "
                    "axis.x.max_jerk_mm_s3=30000; may be repeated")
@@ -219,12 +223,12 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
 
 void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
     app.add_option("--target", arguments.target, target_help());
-    add_machine(app, typed.machine, arguments.settings);
+    add_machine(app, typed.machine, arguments.settings, "");
     app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
 }
 
 void add_serve_options(CLI::App& app, ServeArguments& arguments, Typed& typed) {
-    add_machine(app, typed.machine, arguments.settings);
+    add_machine(app, typed.machine, arguments.settings, "");
     app.add_option("--tcp", arguments.tcp, "127.0.0.1:PORT: where senders connect; port 0: a free one");
     app.add_option("--pty", arguments.pty, "FILE: a link to a pseudo terminal, a serial port for senders");
     app.add_option("--state", arguments.state,
@@ -275,7 +279,7 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
 
 void add_machine_check(CLI::App& app, Job& job) {
     CLI::App* const machine = app.add_subcommand("machine", "Say what is wrong with a machine file");
-    machine->add_option("FILE", job.run.path.input, "a machine file (.toml); - reads standard input")->required();
+    machine->add_option("MACHINE", job.run.path.input, "a machine file (.toml); - reads standard input")->required();
     machine
         ->add_flag_callback(
             "--check", [] {}, "say everything that is wrong, not only the first (the default)")
