@@ -3,6 +3,9 @@
 """Programs within a tolerance: cycle times of all plans against exact stops and against goals.
 
     /usr/bin/python3 bench/tolerance.py [--tool build/release/bin/splinefeed] [--only NAME...] [--judge] [--goals] [--write FOLDER]
+    /usr/bin/python3 bench/tolerance.py --random COUNT [--seed S] [--plan acc|jerk]
+
+The second form makes random G-code of lines and arcs, and compares G64 P with G61 for each program.
 
 100 mm/s, 1000 mm/s^2 for each axis, a sample period of 1 ms; `acc` without a jerk limit, `jerk` with 30000 mm/s^3.
 A goal is beside its time, with ! where the time is above it. `stop` is the estimate with a stop at each element; a time above it
@@ -12,6 +15,7 @@ import argparse
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -138,6 +142,50 @@ def judged(program, tolerance, folder):
     return json.loads(call.stdout)["kept"]
 
 
+def random_gcode(source):
+    """Lines and arcs in a plane, 5 to 40 of them: 0.01 to 20 mm long, at 5 to 100 mm/s, half of the turns below 30 degrees."""
+    x = y = heading = 0.0
+    blocks = []
+    for _ in range(source.randint(5, 40)):
+        heading += math.radians(source.uniform(-30.0, 30.0) if source.random() < 0.5 else source.uniform(-180.0, 180.0))
+        length = 10.0 ** source.uniform(-2.0, 1.3)
+        feed = f" F{10.0 ** source.uniform(2.5, 3.8):.0f}" if source.random() < 0.3 or not blocks else ""
+        if source.random() < 0.3:
+            side = source.choice((-1.0, 1.0))
+            radius, swept = length, math.radians(source.uniform(5.0, 350.0))
+            i, j = -side * radius * math.sin(heading), side * radius * math.cos(heading)
+            heading += side * swept
+            to_x, to_y = x + i + side * radius * math.sin(heading), y + j - side * radius * math.cos(heading)
+            blocks.append(f"G{3 if side > 0 else 2} X{to_x:.6f} Y{to_y:.6f} I{i:.6f} J{j:.6f}{feed}")
+        else:
+            to_x, to_y = x + length * math.cos(heading), y + length * math.sin(heading)
+            blocks.append(f"G1 X{to_x:.6f} Y{to_y:.6f}{feed}")
+        x, y = round(to_x, 6), round(to_y, 6)
+    return "\n".join([*blocks, "M2", ""])
+
+
+def random_programs(options, folder):
+    """How many are slower with a tolerance than with exact stops, and what all take. Whether none is."""
+    path, program = pathlib.Path(folder, "random.toml"), pathlib.Path(folder, "random.ngc")
+    path.write_text(machine(options.plan), encoding="ascii")
+    slower, sums = [], [0.0, 0.0]
+    for seed in range(options.seed, options.seed + options.random):
+        source = random.Random(seed)
+        blocks, tolerance = random_gcode(source), 10.0 ** source.uniform(-3.0, -0.3)
+        seconds = []
+        for mode in ("G61", f"G64 P{tolerance:.4f}"):
+            program.write_text(f"G21 G90 {mode}\n{blocks}", encoding="ascii")
+            call = subprocess.run([options.tool, "plan", program, "-m", path, "--summary", "json", "--quiet"], capture_output=True, text=True,
+                                  check=True)
+            seconds.append(json.loads(call.stdout)["cycle_time_s"])
+        sums = [total + one for total, one in zip(sums, seconds)]
+        if seconds[1] > 1.0001 * seconds[0]:
+            slower.append(seed)
+            print(f"seed {seed}: {mode} {seconds[1]:.4f} s, G61 {seconds[0]:.4f} s", flush=True)
+    print(f"{options.random} programs, {options.plan}: {len(slower)} slower than exact stops; {sums[1]:.1f} s of {sums[0]:.1f} s")
+    return not slower
+
+
 def cell(seconds, goal, stop):
     text = f"{seconds:.3f}" + ("^" if seconds > 1.001 * stop else "")
     return text if goal is None else f"{text} ({goal}{'!' if seconds > goal else ''})"
@@ -180,7 +228,13 @@ def main():
     parser.add_argument("--judge", action="store_true")
     parser.add_argument("--goals", action="store_true")
     parser.add_argument("--write")
+    parser.add_argument("--random", type=int, default=0, metavar="COUNT")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--plan", choices=PLANS, default="acc")
     options = parser.parse_args()
+    if options.random:
+        with tempfile.TemporaryDirectory() as folder:
+            sys.exit(0 if random_programs(options, folder) else 1)
     if options.judge and subprocess.run(["/usr/bin/python3", "-c", "import numpy"], capture_output=True, check=False).returncode != 0:
         print("SKIPPED: the judge needs numpy (Debian: apt-get install python3-numpy)")
         sys.exit(77)
