@@ -4,14 +4,14 @@
 
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
-      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--hal FILE] [--check]
+      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
 its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
 overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
-a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --check fails where a limit is
-exceeded by 1e-4, an end is missed, or a period had no motion.
+a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --set: a line of the INI
+file. --inch: the machine's unit is the inch. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion.
 """
 import argparse
 import importlib.util
@@ -57,6 +57,7 @@ MAX_FEED_OVERRIDE = 2.0
 PARAMETER_FILE = sim.var
 [EMCMOT]
 EMCMOT = motmod
+UNLOCK_JOINTS = 0
 COMM_TIMEOUT = 4.0
 SERVO_PERIOD = {period_ns}
 [EMCIO]
@@ -73,7 +74,7 @@ KINEMATICS = trivkins coordinates={axes}
 JOINTS = {joints}
 [TRAJ]
 COORDINATES = {axes}
-LINEAR_UNITS = mm
+LINEAR_UNITS = {units}
 ANGULAR_UNITS = degree
 DEFAULT_LINEAR_VELOCITY = 100
 MAX_LINEAR_VELOCITY = 1000
@@ -94,7 +95,7 @@ FERROR = 1000
 MIN_FERROR = 1000
 """
 HAL = """loadrt [KINS]KINEMATICS
-loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
+loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS unlock_joints_mask=[EMCMOT]UNLOCK_JOINTS
 loadrt sampler depth=60000 cfg={cfg}
 addf motion-command-handler servo-thread
 addf motion-controller servo-thread
@@ -113,25 +114,33 @@ net atspeed spindle.0.on => spindle.0.at-speed
 """
 
 
-def write_machine(folder, axes, period_us, tpmod, more_hal):
-    text = INI.format(period_ns=period_us * 1000, axes=axes, joints=len(axes), tpmod=tpmod and "TPMOD = " + tpmod)
+def units_mm(axes, inch):
+    return [25.4 if inch and axis not in "ABC" else 1.0 for axis in axes]
+
+
+def write_machine(folder, axes, options, tpmod):
+    text = INI.format(period_ns=options.period * 1000, axes=axes, joints=len(axes), units="inch" if options.inch else "mm",
+                      tpmod=tpmod and "TPMOD = " + tpmod)
     nets = ""
-    for i, axis in enumerate(axes):
+    for i, (axis, mm) in enumerate(zip(axes, units_mm(axes, options.inch))):
         for section in ("AXIS_" + axis, f"JOINT_{i}"):
             kind = "ANGULAR" if axis in "ABC" else "LINEAR"
-            text += AXIS.format(section=section, kind=kind, velocity=VELOCITY, acceleration=ACCELERATION)
+            text += AXIS.format(section=section, kind=kind, velocity=VELOCITY / mm, acceleration=ACCELERATION / mm)
         nets += f"net j{i} joint.{i}.motor-pos-cmd => joint.{i}.motor-pos-fb\n"
         nets += f"net p{i} axis.{axis.lower()}.pos-cmd => sampler.0.pin.{i}\n"
+    for setting in options.set: # of two lines for one key the first counts
+        section, key = setting.split("=")[0].split(".")
+        text = text.replace(f"[{section}]\n", f"[{section}]\n{key} = {setting.split('=', 1)[1]}\n")
     n = len(axes)
     (folder / "sim.ini").write_text(text)
-    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 5), cfg="f" * (n + 1) + "sbbs", nets=nets) + more_hal)
+    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 5), cfg="f" * (n + 1) + "sbbs", nets=nets) + (options.hal.read_text() if options.hal else ""))
     (folder / "sim.var").write_text("")
     (folder / "sim.tbl").write_text("T1 P1 D1\n")
     shutil.copy(HERE / "linuxcnc_driver.py", folder / "driver.py")
     os.chmod(folder / "driver.py", 0o755)
 
 
-def run(program, axes, period_us, module, parameters, actions, timeout_s, more_hal):
+def run(program, axes, options, module, parameters, actions):
     """One run: what the driver tells, with the samples as an array of a row a period."""
     import numpy
 
@@ -144,20 +153,21 @@ def run(program, axes, period_us, module, parameters, actions, timeout_s, more_h
             shutil.copytree(MODULES, modules)
             shutil.copy(module, modules / "splinefeed_tp.so")
             subprocess.run(["chmod", "-R", "a+rX", name], check=True)
-        write_machine(folder, axes, period_us, module and f"splinefeed_tp axes={axes} {parameters}", more_hal)
+        write_machine(folder, axes, options, module and f"splinefeed_tp axes={axes} inch={int(options.inch)} {parameters}")
         (folder / "program.ngc").write_text(program)
-        job = {"actions": actions, "timeout_s": timeout_s, "figures": FIGURES, "columns": len(axes) + len(OTHERS)}
+        job = {"actions": actions, "timeout_s": options.timeout, "figures": FIGURES, "columns": len(axes) + len(OTHERS)}
         (folder / "job.json").write_text(json.dumps(job))
         spaces = ["unshare", "--mount", "--ipc", "--net", "--pid", "--fork", "--mount-proc", "--kill-child"]
         root = os.getuid() == 0
         spaces += [] if root else ["--user", "--map-root-user"]
         environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
         ran = subprocess.run([*spaces, "bash", "-c", INSIDE, "inside", folder, modules, "root" if root else "user"],
-                             capture_output=True, text=True, env=environment, timeout=timeout_s + 120, check=False)
+                             capture_output=True, text=True, env=environment, timeout=options.timeout + 120, check=False)
         if not (folder / "result.json").exists():
             return {"problem": "LinuxCNC did not run: " + " | ".join((ran.stdout + ran.stderr).strip().split("\n")[-12:]), "said": []}
         result = json.loads((folder / "result.json").read_text())
         result["samples"] = numpy.fromfile(folder / "samples.bin").reshape(-1, job["columns"])
+        result["samples"][:, : len(axes)] *= units_mm(axes, options.inch)
         return result
 
 
@@ -270,6 +280,8 @@ def main():
                                 ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
                                 ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
         parser.add_argument("--" + name, type=kind, default=default)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--inch", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     if shutil.which("linuxcnc") is None:
@@ -290,8 +302,7 @@ def main():
             steers = options.steer is not None
             actions = random_actions(options.steer + seed, tool_s or 8.0) if steers else []
             sent = begun_with("M52 P1", text) if steers else text
-            result = run(sent, axes, options.period, options.module.resolve() if ours else None, parameters, actions, options.timeout,
-                         options.hal.read_text() if options.hal else "")
+            result = run(sent, axes, options, options.module.resolve() if ours else None, parameters, actions)
             row = [program.name, planner]
             problem = "; ".join(dict.fromkeys([result["problem"]] * bool(result["problem"]) + result["said"]))
             if "samples" in result:

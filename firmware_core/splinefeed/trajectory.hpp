@@ -93,7 +93,8 @@ public:
     /// machine's limits still apply.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
     /// Upper limit of the feed on top of the program and of the override, which may change while the machine moves; 0
-    /// stops the motion. From 65,535 mm/s on there is none, as at the beginning. Resolution: 2^-16 mm/s.
+    /// stops the motion. From 65,535 mm/s on there is none, as at the beginning. Resolution: 2^-16 mm/s. Where only
+    /// rotary axes of a machine move that has linear ones, too, it does not count.
     void limit_feed(S mm_s) noexcept { steering().limit_feed(mm_s); }
     /// Factor of the largest speed of moves with rapid_feed. Values outside 1/128 to 1 are limited to that range.
     void override_rapids(S ratio) noexcept { steering().override_rapids(ratio); }

@@ -38,7 +38,7 @@ void tpMotData(emcmot_status_t *s, emcmot_config_t *c) {
 struct told {
     EmcPose end;
     double vel;
-    int id, canon, indexer, synced;
+    int id, canon, indexer, synced, rapid;
     unsigned char enables;
     char atspeed;
     struct state_tag_t tag;
@@ -47,8 +47,9 @@ static struct told told[tpc_capacity];
 static syncdio_t io[tpc_capacity];
 static struct tpc_output out; /* of the last period */
 static unsigned begun;        /* moves before it have written their outputs */
+static int locking = -1;      /* joint of an indexer that is to be locked before anything else moves */
 static struct tpc_machine machine;
-static double per_rev_nominal; /* of moves that follow the spindle's speed: the speed that their feed is for */
+static int feeds_synced;      /* whether the newest move with a feed follows the spindle's speed */
 
 static void to_array(const EmcPose *p, double *values) {
     for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
@@ -90,6 +91,7 @@ static void all_over(TP_STRUCT *tp) {
     tp->aborting = 0;
     tp->pausing = 0;
     begun = out.last;
+    locking = -1;
     show_rest(tp);
 }
 
@@ -132,19 +134,6 @@ int tpCreate(TP_STRUCT *tp, int size, int id) {
 }
 
 /* ------------------------------------------------------------------ new moves */
-/* The feed of a move, units/s. Task limits that of an arc to less than the axes allow, sqrt(0.87 a r). Where it has done
- * so, what the program says is in the tag. */
-static double feed_of(int canon, double vel, double max_vel, const struct state_tag_t *tag) {
-    const unsigned long flags = tag->packed_flags;
-    if (canon == EMC_MOTION_TYPE_TRAVERSE || vel < max_vel * (1.0 - 1e-9) || !(flags >> GM_FLAG_FEED_UPM & 1) ||
-        (flags >> GM_FLAG_FEED_INVERSE_TIME & 1)) {
-        return vel;
-    }
-    const double mm = flags >> GM_FLAG_UNITS & 1 ? 25.4 : 1.0; /* of the program's unit */
-    const double asked = (double)tag->fields_float[GM_FIELD_FLOAT_FEED] * mm / machine.mm_per_unit / 60.0;
-    return asked > vel ? asked : vel;
-}
-
 static int refused(TP_STRUCT *tp, const EmcPose *end) {
     if (tp == 0 || tp->aborting || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
     if (tp->synchronized == TC_SYNC_POSITION) {
@@ -169,22 +158,26 @@ struct new_move { /* what tpAddLine and tpAddCircle have in common */
     struct state_tag_t *tag;
 };
 
-/* The feed of moves that follow the spindle's speed is for the speed that was ordered. */
-static double synced_feed(TP_STRUCT *tp) {
-    const int s = tp->spindle.spindle_num;
-    const double rpm = fabs(status->spindle_status[s].speed);
-    per_rev_nominal = rpm > 0.0 ? rpm : 1.0;
-    return tp->uu_per_rev * per_rev_nominal / 60.0;
+/* Moves that follow the spindle's speed have the feed of this speed, 1/s. Their override makes it that of the true one. */
+static const double nominal_per_s = 1000.0;
+
+/* Whether the machine has to stand before a move: until the spindle has its speed, or an indexer is unlocked or locked.
+ * And where moves begin or end to follow the spindle, because there is one override for all feeds. */
+static int stands_before(const struct new_move *from, int rapid, int synced) {
+    const int empty = out.first == out.last;
+    const int behind_indexer = locking != -1 || (!empty && told[(out.last - 1) % tpc_capacity].indexer != -1);
+    return from->atspeed || from->indexer != -1 || behind_indexer || (!empty && !rapid && synced != feeds_synced);
 }
 
 static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, const struct new_move *from) {
     const int synced = tp->synchronized == TC_SYNC_VELOCITY;
-    move->feed = synced ? synced_feed(tp) : feed_of(from->canon, from->vel, from->max_vel, from->tag);
+    move->feed = synced ? tp->uu_per_rev * nominal_per_s : tp_feed(from->canon, from->vel, from->max_vel, from->tag, machine.mm_per_unit);
     move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
                  : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
                                                       : TPC_CONTINUOUS;
     move->tolerance = move->mode != TPC_CONTINUOUS ? 0.0 : tp->tolerance > 0.0 ? tp->tolerance : module_tolerance();
-    move->stands_before = from->atspeed || from->indexer != -1;
+    move->rapid = from->canon == EMC_MOTION_TYPE_TRAVERSE && !synced;
+    move->stands_before = stands_before(from, move->rapid, synced);
     move->stops = from->indexer != -1;
     move->probes = from->canon == EMC_MOTION_TYPE_PROBING;
     to_array(end, move->to);
@@ -201,6 +194,8 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
     q->canon = from->canon;
     q->indexer = from->indexer;
     q->synced = synced ? tp->spindle.spindle_num + 1 : 0;
+    q->rapid = move->rapid;
+    if (!q->rapid) feeds_synced = synced;
     q->enables = from->enables;
     q->atspeed = from->atspeed;
     q->tag = *from->tag;
@@ -270,12 +265,19 @@ static void write_io(const syncdio_t *change) {
     }
 }
 
+/* Nothing else moves until the indexer is locked. */
+static void lock_indexer(void) {
+    if (locking == -1) return;
+    set_rotary_unlock(locking, 0);
+    if (!is_rotary_unlocked(locking)) locking = -1;
+}
+
 /* Moves that begin write their outputs, those that are over lock their indexers. */
 static void begin_moves(unsigned before) {
     for (unsigned n = before; n != out.first; ++n) {
-        const struct told *over = &told[n % tpc_capacity];
-        if (over->indexer != -1) set_rotary_unlock(over->indexer, 0);
+        if (told[n % tpc_capacity].indexer != -1) locking = told[n % tpc_capacity].indexer;
     }
+    lock_indexer();
     const unsigned behind = out.first == out.last ? out.first : out.first + 1;
     const int moves = out.first == out.last || out.pushed != out.first; /* it does not wait for the spindle */
     for (; moves && (int)(behind - begun) > 0; ++begun) write_io(&io[begun % tpc_capacity]);
@@ -283,7 +285,7 @@ static void begin_moves(unsigned before) {
 
 /* Whether the move that waits at standstill may begin. */
 static int may_begin(TP_STRUCT *tp) {
-    if (!out.waits) return 0;
+    if (!out.waits || locking != -1) return 0;
     const struct told *q = &told[out.pushed % tpc_capacity];
     if (q->atspeed) {
         for (int s = 0; s < config->numSpindles; ++s) {
@@ -332,14 +334,13 @@ static void show_move(TP_STRUCT *tp) {
     status->distance_to_go = sqrt(left); /* straight; on an arc it is more */
 }
 
-/* Feed override, adaptive feed and hold, as motmod has multiplied them; with moves in mm per revolution the spindle's. */
-static double ratio_now(void) {
-    double ratio = status->net_feed_scale;
-    const struct told *q = &told[out.first % tpc_capacity];
-    if (out.first != out.last && q->synced) {
-        ratio *= 60.0 * fabs(status->spindle_status[q->synced - 1].spindleSpeedIn) / per_rev_nominal; /* of 1/s and 1/min */
-    }
-    return ratio;
+static void override(struct tpc_input *in) {
+    const int moves = out.first != out.last;
+    unsigned n = out.first; /* the move with a feed that is under way, or the next one */
+    for (int i = 0; i < 64 && moves && n + 1 != out.last && told[n % tpc_capacity].rapid; ++i) ++n;
+    const int synced = moves ? told[n % tpc_capacity].synced : 0;
+    const double turns = synced ? fabs(status->spindle_status[synced - 1].spindleSpeedIn) / nominal_per_s : 1.0;
+    tp_override(status, moves && told[out.first % tpc_capacity].rapid, turns, in);
 }
 
 static void run(TP_STRUCT *tp) {
@@ -350,9 +351,9 @@ static void run(TP_STRUCT *tp) {
     }
     const unsigned before = out.first;
     struct tpc_input in;
-    in.ratio = ratio_now();
     in.max_feed = tp->vLimit > 0.0 ? tp->vLimit : 0.0;
     in.hold = tp->pausing;
+    override(&in);
     in.abort = tp->aborting;
     in.may_begin = may_begin(tp);
     tpc_run(&in, &out);
@@ -361,14 +362,19 @@ static void run(TP_STRUCT *tp) {
     }
     if (out.error != 0) rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: %s\n", out.error);
     if (tp->aborting) {
-        begun = out.last; /* what has not begun writes nothing */
+        begun = out.last; /* what has not begun writes nothing, and an indexer stays as it is */
+        locking = -1;
     }
-    begin_moves(before);
-    if (out.first == out.last) {
-        if (before != out.last && !tp->aborting) tp->currentPos = told[(out.last - 1) % tpc_capacity].end;
+    begin_moves(tp->aborting ? out.first : before);
+    const int over = out.first == out.last;
+    if (over && before != out.last && !tp->aborting) tp->currentPos = told[(out.last - 1) % tpc_capacity].end;
+    if (!over) {
+        show_move(tp);
+    } else if (locking == -1) {
         all_over(tp);
     } else {
-        show_move(tp);
+        show_rest(tp);
+        tp->depth = tp->activeDepth = 1; /* it is not over before that */
     }
 }
 

@@ -30,13 +30,15 @@ struct tpc_move {
     int stands_before; /* the machine waits at its start until tpc_input.may_begin */
     int stops;         /* and stands at its end, whatever the mode */
     int probes;        /* few segments are ready while it runs */
+    int rapid;         /* as fast as the axes can, whatever `feed` says */
     double to[tpc_axes];
     double centre[3], normal[3], sweep_rad;
     double tolerance, feed;
 };
 
 struct tpc_input {
-    double ratio;    /* of the programmed feed, 0 to 2 */
+    double ratio;    /* of the programmed feed, 0 to 2; 0 stops */
+    double rapids;   /* of the largest speed of rapids, 1/128 to 1 */
     double max_feed; /* 0 stops; a large number: none */
     int hold, abort, may_begin;
 };

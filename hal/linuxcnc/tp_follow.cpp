@@ -16,6 +16,7 @@ namespace {
 constexpr double mm_per_unit_of_segment = 1.0 / (1024.0 * static_cast<double>(units_per_count));
 constexpr unsigned most_left = 64; // moves that are over, in a period
 constexpr double rounding_s = 1e-12;
+constexpr double turns_back = 1e-6; // 1 + the cosine of the angle to the next move
 
 double seconds(const FeedSegment& segment) noexcept {
     return static_cast<double>(segment.duration_ticks) / ticks_per_s;
@@ -81,10 +82,15 @@ void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
         const QueuedMove& here = move(first_);
         const QueuedMove& next = move(first_ + 1U);
         double along = 0.0;
+        double past = 0.0;
+        double straight = 1.0; // 0: back where it came from, so no plane halves the angle
         for (const unsigned k : indices(machine_.axes)) {
-            along += (at[k] - here.to[k]) * (here.out[k] + next.in[k]);
+            const double way = at[k] - here.to[k];
+            along += way * (here.out[k] + next.in[k]);
+            past += way * here.out[k];
+            straight += here.out[k] * next.in[k];
         }
-        if (along < 0.0) {
+        if ((straight > turns_back ? along : past) < 0.0) {
             neared_ = first_;
             break;
         }
@@ -121,6 +127,7 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         steer(input);
         plan();
         follow();
+        first_ = waits_ ? pushed_ : first_; // what is before it is over
         const bool aborted = sent_abort_ && stands() && trajectory_.activity() == Activity::aborted;
         const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
         if (complete) {

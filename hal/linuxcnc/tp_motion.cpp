@@ -125,7 +125,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
         set_directions(element, end_, out);
         linear = true;
     }
-    element.feed_mm_s = from.feed * (linear ? machine_.mm_per_unit : 1.0);
+    element.feed_mm_s = from.rapid != 0 ? rapid_feed<double> : from.feed * (linear ? machine_.mm_per_unit : 1.0);
     PerAxis<Position> start{};
     for (const unsigned k : indices(machine_.axes)) {
         start[k] = position_from_mm(end_[k]);
@@ -180,7 +180,7 @@ const char* TpMotion::begin_path() noexcept {
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
     sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
-    sent_ratio_ = 1.0;
+    sent_ratio_ = sent_rapids_ = 1.0;
     sent_max_ = no_limit_mm_s;
     return nullptr;
 }
@@ -203,6 +203,10 @@ void TpMotion::steer(const tpc_input& input) noexcept {
     if (input.ratio != sent_ratio_) {
         sent_ratio_ = input.ratio;
         trajectory_.override_feed(input.ratio);
+    }
+    if (input.rapids != sent_rapids_) {
+        sent_rapids_ = input.rapids;
+        trajectory_.override_rapids(input.rapids);
     }
     const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
     if (most != sent_max_) {

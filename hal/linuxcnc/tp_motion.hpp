@@ -109,6 +109,7 @@ private:
     Mm at_{};  // where the machine is
     Mm end_{}; // where the last queued move ends
     double sent_ratio_ = 1.0;
+    double sent_rapids_ = 1.0;
     double sent_max_ = 0.0;
     bool sent_hold_ = false;
     bool sent_abort_ = false;

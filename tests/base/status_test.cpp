@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/base/status.hpp"
 
+#include "splinefeed/base/capacity.hpp"
+
 #include "support/catch.hpp"
 
 #include <string>
@@ -16,4 +18,5 @@ TEST_CASE("Every error of the core has a sentence, which names no option of the 
         CHECK(sentence.find("--") == std::string::npos);
     }
     CHECK(describe(static_cast<Error>(255)) == std::string("unknown error"));
+    CHECK(describe(Error::axes_out_of_range) == "a machine has 1 to " + std::to_string(max_axes) + " axes");
 }

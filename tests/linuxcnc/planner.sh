@@ -14,6 +14,7 @@ cmake -G Ninja -B "$build" -DSPLINEFEED_LINUXCNC=ON -DSPLINEFEED_HOST=OFF -DSPLI
 cmake --build "$build" --target splinefeed_tp >>"$build.log" || { tail -20 "$build.log"; exit 1; }
 bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --check "$@"; }
 bench --planner stock,module
+bench --planner stock,module --inch
 bench --planner module --period 250
 for jerk in 0 30000; do
     bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10

@@ -104,7 +104,7 @@ public:
     }
     [[nodiscard]] const tpc_figures& figures() const { return motion_->figures(); }
 
-    tpc_input input{1.0, 1e6, 0, 0, 0};
+    tpc_input input{1.0, 1.0, 1e6, 0, 0, 0};
     tpc_output out{};
     std::vector<std::array<double, 3>> places;
     bool aborted = false; // at any time
@@ -117,12 +117,13 @@ private:
 /// What an operator may do in a period.
 void interfere(Random& random, Control& control) {
     tpc_input& input = control.input;
-    switch (random.integer(0, 5)) {
+    switch (random.integer(0, 6)) {
     case 0: input.hold = 1; break;
     case 1: input.hold = 0; break;
     case 2: input.ratio = random.between(0.0, 2.0); break;
     case 3: input.ratio = random.chance(0.5) ? 0.0 : 1.0; break;
-    case 4: input.max_feed = random.chance(0.3) ? 1e6 : random.between(1.0, 120.0); break;
+    case 4: input.rapids = random.between(0.01, 1.0); break;
+    case 5: input.max_feed = random.chance(0.3) ? 1e6 : random.between(1.0, 120.0); break;
     default: input.abort = random.chance(0.1) ? 1 : 0; break;
     }
 }
@@ -147,6 +148,7 @@ TEST_CASE("whatever an operator does, and however late planning is, all limits a
             y += random.between(-size, size);
             tpc_move move = line_to(x, y, random.decades(20.0, 200.0));
             move.mode = random.chance(0.1) ? TPC_EXACT_PATH : TPC_CONTINUOUS;
+            move.rapid = random.chance(0.2) ? 1 : 0;
             const int error = control.add(move);
             REQUIRE((error == 0 || error == -1));
             starved = random.chance(starving);
@@ -166,7 +168,7 @@ TEST_CASE("whatever an operator does, and however late planning is, all limits a
             control.period();
         }
         starved = false;
-        control.input = {1.0, 1e6, 0, control.input.abort, 0};
+        control.input = {1.0, 1.0, 1e6, 0, control.input.abort, 0};
         control.until_over();
         CHECK(control.use() <= 1.0001);
         CHECK(control.figures().late == 0);
@@ -209,6 +211,22 @@ TEST_CASE("the move under way is the one whose end is ahead, also on circles and
     CHECK(first == 42);
 }
 
+TEST_CASE("a move that goes back on its own way begins at its start", "[linuxcnc]") {
+    Control control(machine_of(3, 0.001, 0.0));
+    for (const double x : {10.0, 4.0, 12.0}) {
+        REQUIRE(control.add(line_to(x, 0.0, 50.0)) == 0);
+    }
+    double farthest[3] = {};
+    while (control.out.first != control.out.last) {
+        const unsigned under_way = control.out.first;
+        control.period();
+        farthest[under_way] = control.out.position[0];
+    }
+    CHECK(farthest[0] == Approx(10.0).margin(0.01));
+    CHECK(farthest[1] == Approx(4.0).margin(0.01));
+    CHECK(farthest[2] == 12.0);
+}
+
 TEST_CASE("moves of no length are left out, and what cannot be is refused before motion", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     CHECK(control.add(line_to(0.0, 0.0, 50.0)) == -1);
@@ -239,6 +257,7 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
         control.period();
     }
     CHECK(control.out.waits == 1);
+    CHECK(control.out.first == 1);
     CHECK(control.out.position[0] == Approx(10.0).margin(1e-9));
     control.input.may_begin = 1;
     control.until_over();
@@ -248,40 +267,79 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
 
 TEST_CASE("the motion follows override, slider and hold at once, while it probes sooner", "[linuxcnc]") {
     struct Order {
+        bool rapid;
         tpc_input input;
-        double speed; // mm/s, where 50 are programmed
+        double speed; // mm/s, where 50 are programmed, or as fast as the axis can
     };
     for (const Order& order :
-         {Order{{0.5, 1e6, 0, 0, 0}, 25.0}, Order{{1.6, 1e6, 0, 0, 0}, 80.0}, Order{{1.0, 20.0, 0, 0, 0}, 20.0},
-          Order{{1.0, 0.0, 0, 0, 0}, 0.0}, Order{{1.0, 1e6, 1, 0, 0}, 0.0}}) {
+         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0}, 80.0},
+          Order{false, {1.0, 1.0, 20.0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0}, 0.0},
+          Order{false, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0},
+          Order{true, {0.1, 0.5, 1e6, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0}, 30.0},
+          Order{true, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0}}) {
         for (const double jerk : {0.0, 30'000.0}) {
             double until_slower_s[2] = {};
             for (const bool probes : {false, true}) {
                 Control control(machine_of(3, 0.001, jerk));
-                tpc_move move = line_to(60.0, 0.0, 50.0);
+                tpc_move move = line_to(80.0, 0.0, 50.0);
                 move.probes = probes ? 1 : 0;
+                move.rapid = order.rapid ? 1 : 0;
                 REQUIRE(control.add(move) == 0);
+                const double before = order.rapid ? 100.0 : 50.0;
                 const auto run = [&](int periods) {
                     for (int n = 0; n < periods; ++n) {
                         control.period();
-                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - 50.0) < 0.01 ? 0.001 : 0.0;
+                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - before) < 0.01 ? 0.001 : 0.0;
                     }
                 };
                 run(300);
-                CAPTURE(order.speed, order.input.hold, jerk, probes);
-                REQUIRE(control.out.speed == Approx(50.0));
+                CAPTURE(order.rapid, order.speed, order.input.hold, jerk, probes);
+                REQUIRE(control.out.speed == Approx(before));
                 until_slower_s[probes ? 1 : 0] = 0.0;
                 control.input = order.input;
                 run(250);
                 CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
-                control.input = {1.0, 1e6, 0, 0, 0};
+                control.input = {1.0, 1.0, 1e6, 0, 0, 0};
                 control.until_over();
-                CHECK(control.out.position[0] == 60.0);
+                CHECK(control.out.position[0] == 80.0);
                 CHECK(control.use() <= 1.0001);
             }
             CHECK(until_slower_s[1] < until_slower_s[0]);
         }
     }
+}
+
+TEST_CASE("overrides are for moves of their kind, and the slider is not for rotary axes alone", "[linuxcnc]") {
+    tpc_machine machine = machine_of(4, 0.001, 0.0);
+    Control control(machine);
+    tpc_move rapid = line_to(40.0, 0.0, 50.0);
+    rapid.rapid = 1;
+    REQUIRE(control.add(rapid) == 0);
+    REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
+    tpc_move turn = line_to(80.0, 0.0, 100.0);
+    turn.to[3] = 40.0; // degrees
+    REQUIRE(control.add(turn) == 0);
+    control.input = {0.5, 0.25, 20.0, 0, 0, 0};
+    double fastest[3] = {};
+    double x = 0.0;
+    double a = 0.0;
+    while (control.out.first != control.out.last) {
+        const unsigned move = control.out.first;
+        control.period();
+        const double moved = std::fabs(control.out.position[0] - x) + std::fabs(control.out.position[3] - a);
+        x = control.out.position[0];
+        a = control.out.position[3];
+        fastest[move % 3] = std::max(fastest[move % 3], moved / 0.001);
+        if (move == 0 && x > 20.0) {
+            control.input.max_feed = 1e6;
+        }
+        if (move == 1 && x > 60.0) {
+            control.input = {1.0, 1.0, 20.0, 0, 0, 0};
+        }
+    }
+    CHECK(fastest[0] == Approx(25.0).epsilon(1e-3));
+    CHECK(fastest[1] == Approx(25.0).epsilon(1e-3));
+    CHECK(fastest[2] == Approx(100.0).epsilon(1e-3));
 }
 
 TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {

@@ -4,8 +4,8 @@
 // again, all within the limits.
 #include "support/catch.hpp"
 #include "support/emitted.hpp"
+#include "support/random_steering.hpp"
 #include "support/rounds.hpp"
-#include "support/steered_run.hpp"
 
 using namespace splinefeed_test;
 
@@ -59,26 +59,17 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
     int stops = 0;
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(8)); ++round) {
         Random random(seed + round);
-        const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        for (AxisSettings& axis : machine.axis) {
-            axis.max_acceleration_mm_s2 = random.decades(300.0, 3e4);
-        }
-        const auto limits = MotionLimits<S>::make(machine);
-        if (!limits.has_value()) {
+        const auto drawn = random_quick_run<S>(random, 20, 256, [](MachineSettings&) {});
+        if (!drawn) {
             continue;
         }
-        const BezierPath path = random_path(random, axes, 20, random.decades(0.3, 20.0), 0.1, 0.3);
-        const std::size_t window_size = random.chance(0.5) ? 16 : 256;
-        const SteeredRun plain = run_steered<S>(path, machine, window_size, {});
-        if (plain.endless || plain.segments.size() > 20'000) {
-            continue;
-        }
+        const auto& [machine, limits, path, window_size, plain] = *drawn;
+        const auto axes = static_cast<unsigned>(machine.axes);
         ListSource<S> list(segments_of<S>(path, {}), 0, 0);
         GatedSource<S> source(list, path.size());
         std::vector<PlannedCell<S>> window(window_size);
         AccelerationPlanner<S> planner(window);
-        auto trajectory = Trajectory<S>::make(source, *limits, planner).value();
+        auto trajectory = Trajectory<S>::make(source, limits, planner).value();
         SteeredRun run;
         FeedSegment segment;
         const double pace =
@@ -93,7 +84,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
                 stood = false;
             } else if (trajectory.state() == Pull::starved) {
                 if (!run.segments.empty()) {
-                    REQUIRE(ends_at_rest(run.segments.back(), static_cast<unsigned>(axes)));
+                    REQUIRE(ends_at_rest(run.segments.back(), axes));
                 }
                 stops += stood ? 0 : 1;
                 stood = true;

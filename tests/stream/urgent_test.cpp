@@ -58,24 +58,19 @@ TEMPLATE_TEST_CASE("late planning slows the motion down on the path, within the 
     int judged = 0;
     for (std::uint64_t n = first_round(); n < static_cast<std::uint64_t>(rounds(40)); ++n) {
         Random random(seed + n);
-        const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_quick_machine(random, axes);
-        if (!std::same_as<S, float> && random.chance(0.5)) {
-            limit_jerk(random, machine);
-        }
-        if (random.chance(0.2)) {
-            machine.axis[0].max_braking_mm_s2 = 3.0 * machine.axis[0].max_acceleration_mm_s2;
-        }
-        const auto limits = MotionLimits<S>::make(machine);
-        if (!limits.has_value()) {
+        const auto drawn = random_quick_run<S>(random, 30, 64, [&](MachineSettings& machine) {
+            if (!std::same_as<S, float> && random.chance(0.5)) {
+                limit_jerk(random, machine);
+            }
+            if (random.chance(0.2)) {
+                machine.axis[0].max_braking_mm_s2 = 3.0 * machine.axis[0].max_acceleration_mm_s2;
+            }
+        });
+        if (!drawn) {
             continue;
         }
-        const BezierPath path = random_path(random, axes, 30, random.decades(0.3, 20.0), 0.1, 0.3);
-        const std::size_t window = random.chance(0.5) ? 16 : 64;
-        const SteeredRun plain = run_steered<S>(path, machine, window, {});
-        if (plain.endless || plain.segments.size() > 20'000) {
-            continue;
-        }
+        const auto& [machine, limits, path, window, plain] = *drawn;
+        const auto axes = static_cast<unsigned>(machine.axes);
         for (const bool steered : {false, true}) {
             std::vector<Event> events;
             if (steered) {
@@ -84,16 +79,16 @@ TEMPLATE_TEST_CASE("late planning slows the motion down on the path, within the 
                 std::swap(events.front(), events.back());
             }
             ListSource<S> source(segments_of<S>(path, {}), n, 2);
-            AnyTrajectory<S> any(source, *limits, window);
+            AnyTrajectory<S> any(source, limits, window);
             SteeredRun run;
             Urgency urgency;
-            CAPTURE(seed, n, steered, window, limits->jerk_limited);
+            CAPTURE(seed, n, steered, window, limits.jerk_limited);
             run_urgent<S>(any.trajectory(), events, random, random.chance(0.3) ? 1.0 : 0.1, run, urgency);
             ++judged;
             CHECK(urgency.busy_in_motion == 0);
             REQUIRE_FALSE(run.endless);
             require_limits(run, machine, std::same_as<S, float> ? 5e-2L : 0.0L);
-            REQUIRE((run.segments.empty() || ends_at_rest(run.segments.back(), static_cast<unsigned>(axes))));
+            REQUIRE((run.segments.empty() || ends_at_rest(run.segments.back(), axes)));
             if (!steered) {
                 REQUIRE(run.finished);
                 CHECK(run.segments.back().end == plain.segments.back().end);

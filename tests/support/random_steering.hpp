@@ -5,6 +5,8 @@
 
 #include "steered_run.hpp"
 
+#include <optional>
+
 namespace splinefeed_test {
 
 /// Axes that are not so soft that a run takes minutes of its own time.
@@ -23,6 +25,38 @@ inline void limit_jerk(Random& random, MachineSettings& machine) {
             axis.max_jerk_mm_s3 = std::min(axis.max_acceleration_mm_s2 / random.decades(1e-4, 1.0), 1e9);
         }
     }
+}
+
+/// A machine on a path, and how it runs where nothing disturbs it.
+template <Scalar S>
+struct QuickRun {
+    MachineSettings machine;
+    MotionLimits<S> limits;
+    BezierPath path;
+    std::size_t window;
+    SteeredRun plain;
+};
+
+/// Nothing where the limits are refused, or where it would take minutes of the machine's time.
+/// @param pieces  of the path
+/// @param larger  cells of the window, every other time; else 16
+/// @param change  is called with the machine
+template <Scalar S, class Change>
+std::optional<QuickRun<S>> random_quick_run(Random& random, int pieces, std::size_t larger, Change&& change) {
+    const int axes = random.integer(1, max_axes);
+    MachineSettings machine = random_quick_machine(random, axes);
+    change(machine);
+    const auto limits = MotionLimits<S>::make(machine);
+    if (!limits.has_value()) {
+        return std::nullopt;
+    }
+    const BezierPath path = random_path(random, axes, pieces, random.decades(0.3, 20.0), 0.1, 0.3);
+    const std::size_t window = random.chance(0.5) ? 16 : larger;
+    SteeredRun plain = run_steered<S>(path, machine, window, {});
+    if (plain.endless || plain.segments.size() > 20'000) {
+        return std::nullopt;
+    }
+    return QuickRun<S>{machine, *limits, path, window, std::move(plain)};
 }
 
 /// One to eight holds and overrides over a run of so many segments, some of them after its end.

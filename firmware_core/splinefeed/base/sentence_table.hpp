@@ -2,9 +2,17 @@
 // Tables that have a sentence for each value of an enumeration of errors, in its order.
 #pragma once
 
+#include "splinefeed/base/capacity.hpp"
+
 #include <cstddef>
 
+#define SPLINEFEED_QUOTED(value) #value
+#define SPLINEFEED_TEXT_OF(value) SPLINEFEED_QUOTED(value)
+
 namespace splinefeed {
+
+/// What axes_out_of_range means in this build.
+inline constexpr const char* axes_sentence = "a machine has 1 to " SPLINEFEED_TEXT_OF(SPLINEFEED_MAX_AXES) " axes";
 
 /// A row of such a table.
 template <class E>

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Sentence<Error> sentences[] = {
     {Error::none, "no error"},
-    {Error::axes_out_of_range, "a machine has one to six axes"},
+    {Error::axes_out_of_range, axes_sentence},
     {Error::position_out_of_range, "a position must be a finite number within +-1048576 mm"},
     {Error::move_too_long, "two successive waypoints must be at most 65536 mm apart, in float 512 mm"},
     {Error::counts_out_of_range, "position times steps_per_mm must stay within +-2147483647 counts"},

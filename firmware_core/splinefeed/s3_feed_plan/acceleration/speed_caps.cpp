@@ -57,7 +57,7 @@ S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish
     } else {
         feed = programmed > S{} ? limits_.usable_feed(programmed * wish.ratio) : feed * wish.ratio;
     }
-    if (wish.most_mm_s < feed) {
+    if (wish.most_mm_s < feed && feed_is_linear(cell, limits_)) {
         feed = limits_.usable_feed(wish.most_mm_s);
     }
     if (!(feed < limits_.feed_mm_s)) {

@@ -30,6 +30,10 @@ Ratio<S> share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotar
     return smaller(largest, from_integer<Ratio<S>>(1));
 }
 
+// Below, a linear axis does not count as moving.
+template <Scalar S>
+constexpr auto least_linear = literal<Ratio<S>>(0x1p-17);
+
 } // namespace
 
 template <Scalar S>
@@ -38,10 +42,17 @@ S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
         return from_integer<S>(1);
     }
     const Ratio<S> linear = share_of(cell, limits, false);
-    return lengthened<S>(linear > literal<Ratio<S>>(0x1p-17) ? linear : share_of(cell, limits, true));
+    return lengthened<S>(linear > least_linear<S> ? linear : share_of(cell, limits, true));
 }
 
-#define SPLINEFEED_INSTANTIATE(S) template S feed_share(const Cell<S>&, const MotionLimits<S>&) noexcept;
+template <Scalar S>
+bool feed_is_linear(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
+    return !limits.mixed || share_of(cell, limits, false) > least_linear<S>;
+}
+
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template S feed_share(const Cell<S>&, const MotionLimits<S>&) noexcept;                                            \
+    template bool feed_is_linear(const Cell<S>&, const MotionLimits<S>&) noexcept;
 SPLINEFEED_INSTANTIATE(double)
 SPLINEFEED_INSTANTIATE(float)
 SPLINEFEED_INSTANTIATE(Fixed)

@@ -14,4 +14,8 @@ namespace splinefeed {
 template <Scalar S>
 [[nodiscard]] S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept;
 
+/// Whether the axes that define the feed of the cell are linear ones, or the machine has none.
+template <Scalar S>
+[[nodiscard]] bool feed_is_linear(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept;
+
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
 
+#include "splinefeed/base/sentence_table.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
 
 namespace splinefeed {
@@ -15,7 +16,7 @@ struct LimitSentence {
 // What machine_numbers.hpp has no sentence for.
 constexpr LimitSentence limit_sentences[] = {
     {LimitError::none, "no error"},
-    {LimitError::axes_out_of_range, "a machine has one to six axes"},
+    {LimitError::axes_out_of_range, axes_sentence},
     {LimitError::segments_per_sample_invalid,
      "segments_per_sample must be 0 to 8 and divide the sample period into whole eighths of a us"},
     {LimitError::travel_end_incomplete,
