@@ -115,11 +115,14 @@ void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector
         ->allow_extra_args(false);
 }
 
+void add_target(CLI::App& app, std::string& target) {
+    app.add_option("--target", target, "sim: the simulated machine in this process (default); " + target_help());
+}
+
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     add_machine(app, typed.machine, job.run.settings);
     if (executes) {
-        app.add_option("--target", job.run.target,
-                       "sim: the simulated machine in this process (default); " + target_help());
+        add_target(app, job.run.target);
         app.add_option("--start", typed.start,
                        "check, move or here: what to do when the machine stands elsewhere than its program begins: "
                        "refuse (default), move there in a straight line, or begin where it stands; not of sim");
@@ -229,6 +232,7 @@ void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
 
 void add_serve_options(CLI::App& app, ServeArguments& arguments, Typed& typed) {
     add_machine(app, typed.machine, arguments.settings, "");
+    add_target(app, arguments.target);
     app.add_option("--tcp", arguments.tcp, "127.0.0.1:PORT: where senders connect; port 0: a free one");
     app.add_option("--pty", arguments.pty, "FILE: a link to a pseudo terminal, a serial port for senders");
     app.add_option("--state", arguments.state,
@@ -320,7 +324,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_link_options(*link, job.link, typed);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
-    CLI::App* const serve = app.add_subcommand("serve", "Operate the simulated machine from a sender of G-code (grbl)");
+    CLI::App* const serve = app.add_subcommand("serve", "Operate a machine from a sender of G-code (grbl)");
     add_serve_options(*serve, job.serve, typed);
     serve->footer(
         "Example: splinefeed serve -m three_axis.toml --tcp 127.0.0.1:2300 --pty /tmp/machine\n"

@@ -3,6 +3,7 @@
 // port, and what the tool has to know and to say of it.
 #pragma once
 
+#include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/output/summary.hpp"
 
@@ -33,6 +34,8 @@ struct RunOptions {
     bool reset = false; ///< faults of the drives are reset first
     bool home = false;  ///< the axes find their references before the run moves
     bool probe = false; ///< the run ends, held on the path, when the probe touches
+    /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
+    bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;
 };
 
@@ -66,10 +69,24 @@ public:
     [[nodiscard]] virtual std::string holds() const { return {}; }
     /// Whether this hold was the purpose of the run.
     [[nodiscard]] virtual bool achieved() const { return false; }
+    /// Whether it can be served: many motions, one behind the other, by renew() of its port.
+    [[nodiscard]] virtual bool serves() const noexcept { return false; }
+    /// For a machine that is served. What prepare() does from now on, of home and reset.
+    virtual void set_ready(const RunOptions& /*options*/) {}
+    /// Whether halt() of the port stops the drives sooner than the plan could brake; else it asks for that: holds().
+    [[nodiscard]] virtual bool halts() const noexcept { return false; }
+    /// With less motion than this in the port it may slow down by itself, unless that is the end. [us]
+    [[nodiscard]] virtual std::uint64_t least_ahead_us() const noexcept { return 20'000; }
+
     /// A failure of the port for the user, and what else is not as it should be.
     [[nodiscard]] virtual std::string sentence(const hal::PortFailure& failure) const { return failure.what; }
     /// How the axes were stopped by halt() or quick_stop() of the port.
     [[nodiscard]] virtual std::string halted(bool quick) const = 0;
+    /// Switches drives off that stand. Returns what was not confirmed.
+    [[nodiscard]] virtual std::string switch_off() {
+        port().power_off();
+        return {};
+    }
     /// Called once, when a motion that prepare() began is over, for any reason. Drives that stand are left in the state
     /// that the machine file requires (drives_at_end). Returns one line with everything that was not confirmed.
     [[nodiscard]] virtual std::string finish() = 0;

@@ -20,11 +20,11 @@
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
+#include "host_sim/run/target_fit.hpp"
 #include "host_sim/run/what_would_help.hpp"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 #include <span>
@@ -96,39 +96,6 @@ void print(const Summary& summary, SummaryKind kind) {
     print_whole(kind == SummaryKind::json ? to_json(summary) : to_text(summary), "the summary");
 }
 
-/// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
-/// smoothness in space, which the summary states.
-PlanFigures fitted(MachineDescription& machine, ScalarKind scalar, const RunTarget& target, bool quiet) {
-    constexpr int longest_us = 100'000;
-    constexpr int step_us = 50;
-    const int asked_us = machine.settings.sample_period_us;
-    const std::string lowered = target.fit(machine);
-    PlanFigures figures = plan_figures(scalar, machine);
-    for (const std::string& note : {lowered, target.note()}) {
-        if (!note.empty() && !quiet) {
-            tell("splinefeed: note: {}\n", printable(note));
-        }
-    }
-    if (figures.segment_ticks >= target.least_segment_us() * ticks_per_us) {
-        return figures;
-    }
-    const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
-    if (!target.resamples() || period_us > longest_us) {
-        throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
-                                     "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
-                                     target.least_segment_us() * 1e-3, figures.segment_ticks * 1e-3 / ticks_per_us));
-    }
-    machine.settings.sample_period_us = std::max(period_us, asked_us);
-    machine.settings.segments_per_sample = 1;
-    figures = plan_figures(scalar, machine);
-    if (!quiet) {
-        tell("splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
-             "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
-             target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
-    }
-    return figures;
-}
-
 /// Where the machine stands. A program in G-code that nobody told it begins there.
 RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarget& target, PathInput& input,
                     MachineState& begins, const PathLimits& limits) {
@@ -163,8 +130,7 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
                   PlanFigures& figures, MachineState& begins) {
     Connected out;
     out.target.reset(target_kind(arguments.target).make(arguments.target, of.machine, arguments.options).release());
-    figures = fitted(of.machine, arguments.path.scalar, *out.target, arguments.motion.quiet);
-    out.target->check(of.machine, figures.segment_ticks / static_cast<double>(ticks_per_us));
+    figures = fit_to_target(of.machine, arguments.path.scalar, *out.target, arguments.motion.quiet);
     out.start = find_start(arguments, of, *out.target, input, begins, limits);
     out.outputs.reset(input.gcode() != nullptr ? make_outputs(of.machine, arguments.target).release() : nullptr);
     return out;

@@ -3,15 +3,10 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
-#include "host_sim/ports/program_outputs.hpp"
-#include "host_sim/ports/run_target.hpp"
-#include "host_sim/report/target_record.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/state_keeper.hpp"
+#include "host_sim/run/target_feed.hpp"
 
-#include "splinefeed/s4_segment_stream/segment_ring.hpp"
-
-#include <array>
 #include <atomic>
 #include <deque>
 #include <mutex>
@@ -34,8 +29,7 @@ namespace splinefeed::host {
 /// the process with the run's message and exit status 1. After the end of a run a signal does this at once.
 class Supervision final : public ProgramOrders {
 public:
-    /// How far the planner may be ahead of the port. [us] More would only delay a hold.
-    static constexpr std::uint64_t hand_over_us = 10'000;
+    static constexpr std::uint64_t hand_over_us = TargetFeed::hand_over_us;
     static constexpr int stall_s = 2;
 
     /// No thread runs before the first segment. All arguments must outlive it.
@@ -43,7 +37,7 @@ public:
     Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr,
                 StateKeeper* state = nullptr, TargetRecord* record = nullptr)
         : target_(&target), port_(&target.port()), signals_(&signals), outputs_(outputs), state_(state),
-          record_(record) {}
+          feed_(target, outputs, record) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
     /// If the run is not over: stop(), and waits for the end.
@@ -65,20 +59,20 @@ public:
     /// complete(), and waits until the run is over. false: it ended before everything was executed; ending() says why.
     [[nodiscard]] bool finish();
     /// Whether submit() would return without waiting.
-    [[nodiscard]] bool room() const noexcept;
+    [[nodiscard]] bool room() const noexcept { return feed_.room(); }
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
     /// Whether it has begun and is not over.
     [[nodiscard]] bool runs() const noexcept { return thread_.joinable() && !over(); }
-    void order(const ProgramAction& action, bool standing) override;
-    [[nodiscard]] bool carried_out() const override;
+    void order(const ProgramAction& action, bool standing) override { feed_.order(action, standing); }
+    [[nodiscard]] bool carried_out() const override { return feed_.carried_out(); }
     [[nodiscard]] int input() const override { return outputs_ != nullptr ? outputs_->answer() : 0; }
     [[nodiscard]] bool spindle_stands() const override { return outputs_ == nullptr || outputs_->spindle_stands(); }
     /// Whether the plan has to be held, and ends there.
-    [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
+    [[nodiscard]] bool hold_asked() const noexcept { return feed_.hold_asked(); }
     [[nodiscard]] UserSteering take_steering() noexcept { return signals_->take_steering(); }
     /// Segments that were submitted, for the thread that submits, and those that were executed.
-    [[nodiscard]] std::uint64_t submitted() const noexcept { return pushed_; }
-    [[nodiscard]] std::uint64_t executed() const noexcept { return executed_.load(); }
+    [[nodiscard]] std::uint64_t submitted() const noexcept { return feed_.pushed(); }
+    [[nodiscard]] std::uint64_t executed() const noexcept { return feed_.executed(); }
     /// Why the run ended early, and where the machine stands. @pre finish() returned
     [[nodiscard]] const std::string& ending() const noexcept { return ending_; }
     /// "; the machine stands at ..." @pre as above
@@ -97,19 +91,13 @@ public:
     void describe(Summary& summary) const { target_->describe(summary); }
 
 private:
-    static constexpr std::size_t capacity = 512; // hand_over_us of the shortest segments
-
     void work() noexcept;
     void end(const std::string& reason) noexcept;
     [[nodiscard]] std::string begin();
     [[nodiscard]] std::string supervise();
-    void ask_target(int requests);
-    void obey();
-    void hand_over();
-    void tend_outputs(std::uint64_t executed);
+    [[nodiscard]] int requests();
     void begin_line(std::uint64_t line, std::uint64_t moves);
     void come_to(std::uint64_t executed);
-    void end_outputs();
     [[nodiscard]] std::string outputs_end() const;
     [[nodiscard]] std::string with_trouble(const std::string& ending) const;
     void await_planner() noexcept;
@@ -119,18 +107,8 @@ private:
     SignalWatch* signals_;
     ProgramOutputs* outputs_;
     StateKeeper* state_;
-    TargetRecord* record_;
-    std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
-    SegmentRing ring_{segments_};
-    std::uint64_t pushed_ticks_ = 0; // used by the planner only
-    std::uint64_t pushed_ = 0;       // segments; likewise
-    bool at_rest_ = true;            // at the end of the last one; likewise
-    struct DueOrder {
-        ProgramAction action;
-        std::uint64_t after = 0; // so many segments
-    };
-    mutable std::mutex order_mutex_;
-    std::deque<DueOrder> orders_; // protected by it
+    TargetFeed feed_;
+    bool at_rest_ = true; // at the end of the last segment; used by the planner only
     struct LineBegin {
         std::uint64_t line = 0;
         std::uint64_t moves = 0;
@@ -140,20 +118,12 @@ private:
     std::deque<LineBegin> lines_;              // protected by it; from the line where the machine is
     std::vector<RunTarget::AxisPlace> passed_; // protected by it
     unsigned looks_ = 0;
-    std::atomic<std::uint64_t> taken_ticks_{0};
-    std::atomic<bool> hold_asked_{false};
     std::atomic<bool> complete_{false}; // no more segments come, and the last one ends at rest
     std::atomic<bool> stop_{false};     // the plan is given up
     std::string stop_why_;              // written before stop_
     std::atomic<bool> leaves_{false};   // the planner's thread needs no other thread any more
-    std::atomic<std::uint64_t> executed_{0};
     std::atomic<bool> over_{false};
     // Used by the thread, and after over_ by any thread:
-    int obeyed_ = 0; // number of requests to end that were obeyed
-    std::uint64_t obeyed_us_ = 0;
-    std::string trouble_;      // why the axes are stopped, where no signal asked for it
-    std::uint64_t before_ = 0; // segments of moves to the references
-    bool completed_ = false;
     bool began_ = false;
     std::string ending_; // empty: everything was executed
     std::string where_;

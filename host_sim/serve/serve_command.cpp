@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/serve/serve_command.hpp"
 
+#include "host_sim/base/abandon.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
+#include "host_sim/ports/target_table.hpp"
+#include "host_sim/run/output_table.hpp"
+#include "host_sim/run/target_fit.hpp"
 #include "host_sim/serve/serve_settings.hpp"
+#include "host_sim/serve/served_target.hpp"
 #include "host_sim/serve/server.hpp"
+#include "host_sim/serve/simulated_tool.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,6 +31,21 @@ PerAxis<double> places_of(const MachineState& state, const MachineDescription& m
     return out;
 }
 
+/// Connects to it. The machine's limits become those that it carries.
+std::unique_ptr<ServedMachine> make_target(const std::string& target, RunMachine& machine,
+                                           const PerAxis<double>& told) {
+    const RunOptions options{.interrupted = &ServedTarget::gives_up};
+    std::unique_ptr<RunTarget> made = target_kind(target).make(target, machine.machine, options);
+    if (!made->serves()) {
+        throw UsageError(fmt::format("--target {}: serve moves drives that interpolate (splinefeed-pvt), and no others "
+                                     "so far; splinefeed run moves these",
+                                     in_quotes(target)));
+    }
+    const PlanFigures figures = fit_to_target(machine.machine, ScalarKind::fixed, *made, false);
+    return std::make_unique<ServedTarget>(std::move(made), machine.machine, figures.segment_ticks, told,
+                                          [&machine, target] { return make_outputs(machine.machine, target); });
+}
+
 } // namespace
 
 int run_serve(const ServeArguments& arguments) {
@@ -36,22 +57,31 @@ int run_serve(const ServeArguments& arguments) {
     if (!arguments.tcp && !arguments.pty && !console) {
         throw UsageError("serve needs a place where senders connect; give --tcp 127.0.0.1:2300, or --pty FILE");
     }
+    // First of all: threads that are started later have the same signals blocked.
+    SignalWatch signals([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     const MachineChoice choice{arguments.machine, arguments.settings};
-    const RunMachine machine(choice, *input_format("gcode"));
+    RunMachine machine(choice, *input_format("gcode"));
     if (const std::string note = note_of(choice, machine.machine); !note.empty()) {
         tell("splinefeed: note: {}\n", printable(note));
     }
     const MachineState begins = machine.state(arguments.state.value_or(""), "");
-    const bool known = begins.unknown_why.empty();
+    const PerAxis<double> told = places_of(begins, machine.machine);
+    std::unique_ptr<ServedMachine> tool;
+    if (arguments.target != "sim") {
+        tool = make_target(arguments.target, machine, told);
+    }
     const ControllerSettings settings = serve_settings(machine);
     ServedMotion motion(machine.machine, settings);
-    SimulatedTool tool(machine.machine, motion.segments_per_sample(), places_of(begins, machine.machine), known);
+    if (tool == nullptr) {
+        tool = std::make_unique<SimulatedTool>(machine.machine, motion.segments_per_sample(), told,
+                                               begins.unknown_why.empty());
+    }
     std::optional<StateKeeper> state;
     if (arguments.state) {
         state.emplace(*arguments.state, machine.axes, begins);
     }
-    SignalWatch signals({}); // before anybody can connect
-    Server server(settings, motion, tool, state ? &*state : nullptr, begins, console);
+    signals.supervise(); // before anybody can connect
+    Server server(settings, motion, *tool, state ? &*state : nullptr, begins, console);
     std::string places;
     if (arguments.tcp) {
         places += "serving tcp " + server.door().listen(*arguments.tcp) + "\n";
@@ -66,7 +96,11 @@ int run_serve(const ServeArguments& arguments) {
     }
     print_whole(places, "the address");
     server.run(signals);
-    return 0;
+    const std::string unconfirmed = tool->finish();
+    if (!unconfirmed.empty()) {
+        tell("splinefeed: {}\n", printable(unconfirmed));
+    }
+    return unconfirmed.empty() ? 0 : 1;
 }
 
 } // namespace splinefeed::host

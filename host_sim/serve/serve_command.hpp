@@ -12,6 +12,7 @@ namespace splinefeed::host {
 struct ServeArguments {
     std::string machine;                 ///< empty: not named; MachineChoice
     std::vector<std::string> settings{}; ///< of --set
+    std::string target = "sim";
     std::optional<std::string> tcp;
     std::optional<std::string> pty;
     std::optional<std::string> state;

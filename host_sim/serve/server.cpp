@@ -16,7 +16,7 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 
 } // namespace
 
-Server::Server(const ControllerSettings& settings, ServedMotion& motion, SimulatedTool& tool, StateKeeper* state,
+Server::Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
                const MachineState& begins, bool says)
     : motion_(&motion.motion()), tool_(&tool), state_(state), lines_(line_memory), answers_(answer_memory),
       text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says) {
@@ -72,12 +72,16 @@ void Server::step() {
     tool_->advance(Clock::now());
     controller_.execute(now_ms());
     FeedSegment segment;
-    while (tool_->has_room() && controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item) {
+    bool more = true;
+    while (tool_->has_room() && (more = controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item)) {
         if (!moved_ && state_ != nullptr) {
             state_->moves();
         }
         moved_ = true;
         tool_->submit(segment);
+    }
+    if (!more && motion_->at_rest() && (motion_->exhausted() || tool_->is_dry())) {
+        tool_->rest();
     }
 }
 
@@ -99,7 +103,7 @@ void Server::keep() {
         state_->offsets(motion_->interpreter().offsets());
     }
     if (moved_ && tool_->stands() && motion_->exhausted()) {
-        state_->stands(tool_->position_mm());
+        state_->ends(tool_->places());
         moved_ = false;
     }
 }
@@ -121,7 +125,7 @@ void Server::run(SignalWatch& signals) {
     }
     moved_ = moved_ && state_ != nullptr;
     if (moved_) {
-        state_->stands(tool_->position_mm());
+        state_->ends(tool_->places());
     }
 }
 

@@ -85,6 +85,14 @@ void SimulatedTool::execute(const FeedSegment& segment) {
     speed_mm_s_ = moves_ ? std::sqrt(way_sq) / std::chrono::duration<double>(duration_of(segment)).count() : 0.0;
 }
 
+std::vector<RunTarget::AxisPlace> SimulatedTool::places() const {
+    std::vector<RunTarget::AxisPlace> out;
+    for (const unsigned k : indices(description_.settings.axes)) {
+        out.push_back({k, mm_[k]});
+    }
+    return out;
+}
+
 MachineReading SimulatedTool::read() noexcept {
     MachineReading out;
     out.position = position_;

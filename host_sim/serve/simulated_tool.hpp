@@ -4,9 +4,8 @@
 
 #include "host_sim/machine/simulated_machine.hpp"
 
-#include "splinefeed/controller/controlled_machine.hpp"
+#include "host_sim/serve/served_machine.hpp"
 
-#include <chrono>
 #include <deque>
 #include <optional>
 
@@ -14,9 +13,8 @@ namespace splinefeed::host {
 
 /// It executes each segment when its time has passed. Where segments come late the motion waits: its time stands still.
 /// Homing takes half a second, and then the axes stand at 0. A spindle takes the time that the machine file says.
-class SimulatedTool final : public ControlledMachine {
+class SimulatedTool final : public ServedMachine {
 public:
-    using Time = std::chrono::steady_clock::time_point;
     static constexpr std::chrono::milliseconds ahead{20}; ///< of motion that it holds
     static constexpr std::chrono::milliseconds dry{8};    ///< with less the plan must not wait for more lines
 
@@ -24,23 +22,22 @@ public:
     SimulatedTool(MachineDescription machine, int segments_per_sample, const PerAxis<double>& position, bool known);
 
     /// Executes what is due.
-    void advance(Time now);
-    [[nodiscard]] bool has_room() const noexcept { return queued_ < ahead; }
-    [[nodiscard]] bool is_dry() const noexcept { return queued_ < dry; }
-    void submit(const FeedSegment& segment);
-    [[nodiscard]] const PerAxis<double>& position_mm() const noexcept { return mm_; }
-    [[nodiscard]] bool stands() const noexcept { return queue_.empty() && !moves_; }
-    /// Whether the program's offsets have changed since the last call.
-    [[nodiscard]] bool take_offsets_change() noexcept { return std::exchange(offsets_changed_, false); }
+    void advance(Time now) override;
+    [[nodiscard]] bool has_room() const noexcept override { return queued_ < ahead; }
+    [[nodiscard]] bool is_dry() const noexcept override { return queued_ < dry; }
+    void submit(const FeedSegment& segment) override;
+    void rest() override {}
+    [[nodiscard]] bool stands() const noexcept override { return queue_.empty() && !moves_; }
+    [[nodiscard]] std::vector<RunTarget::AxisPlace> places() const override;
 
     MachineReading read() noexcept override;
     void obey(const ProgramEvent& event) noexcept override;
     void watch_probe(bool away) noexcept override;
     void home(std::uint32_t axes) noexcept override;
+    bool halt() noexcept override { return false; }
     void quick_stop() noexcept override;
     void enable(bool /*on*/) noexcept override {}
     void reset_faults() noexcept override;
-    void offsets_changed() noexcept override { offsets_changed_ = true; }
 
 private:
     void execute(const FeedSegment& segment);
@@ -64,7 +61,6 @@ private:
     std::string fault_;
     bool known_ = true;
     bool moves_ = false;
-    bool offsets_changed_ = false;
 };
 
 } // namespace splinefeed::host

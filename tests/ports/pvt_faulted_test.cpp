@@ -107,6 +107,7 @@ using Event = ModbusEvent;
 
 constexpr auto unasked = "no stop was requested";
 constexpr auto not_started = "nothing was started";
+constexpr auto one_motion = "a run has one motion";
 constexpr auto once_more = "a port that is asked for a stop looks at nothing but the stop";
 
 // Cells that no run can visit.
@@ -140,6 +141,14 @@ const std::vector<NeverVisited<Phase, Event>> never_visited{
     {Phase::fault, {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed}, once_more},
     {Phase::fault, {Event::broken, Event::settled}, "it has its failure"},
     {Phase::fault, {Event::overdue}, "it has no bound"},
+    {Phase::starting, {Event::renewed}, one_motion},
+    {Phase::running, {Event::renewed}, one_motion},
+    {Phase::stopping, {Event::renewed}, one_motion},
+    {Phase::waiting, {Event::renewed}, one_motion},
+    {Phase::halting, {Event::renewed}, one_motion},
+    {Phase::halted, {Event::renewed}, one_motion},
+    {Phase::done, {Event::renewed}, one_motion},
+    {Phase::fault, {Event::renewed}, one_motion},
 };
 
 using Tally = FaultedTally<ModbusPhase, ModbusEvent>;

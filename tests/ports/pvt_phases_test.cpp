@@ -147,6 +147,9 @@ TEST_CASE("PVT port, virtual: whatever a drive reports or leaves undone, the run
         {ModbusPhase::starting, {ModbusEvent::broken}, "of a segment out of range: pvt_counters_test.cpp"},
         {ModbusPhase::running, {ModbusEvent::broken}, "the same"},
         {ModbusPhase::stopping, {ModbusEvent::broken}, "the same"},
+        {ModbusPhase::halted, {ModbusEvent::renewed}, "a run has one motion: pvt_renew_test.cpp has more"},
+        {ModbusPhase::done, {ModbusEvent::renewed}, "the same"},
+        {ModbusPhase::fault, {ModbusEvent::renewed}, "the same"},
         {ModbusPhase::done, {ModbusEvent::broken}, "the same, behind complete(): an error of the caller"},
     };
     for (std::size_t i = 0; i < ModbusPhases::phases; ++i) {

@@ -2,12 +2,18 @@
 # SPDX-License-Identifier: MIT
 """A server of the tool and a sender that is connected to it, for tests."""
 import os
+import pathlib
 import re
 import select
 import signal
 import socket
 import subprocess
+import sys
 import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "modbus"))
+from drive_processes import Drive  # noqa: E402
 
 
 class Failed(Exception):
@@ -30,6 +36,43 @@ class Server:
             self.process.send_signal(signal.SIGINT)
         told = self.process.communicate(timeout=30)[1]
         return self.process.returncode, told
+
+
+class ServedDrives:
+    """Three simulated Modbus drives, and a server of the machine that they move: machine.toml with their addresses."""
+
+    def __init__(self, tool, folder, keys="unit=1", profile="", extra=()):
+        self.tool, self.folder, self.server = tool, folder, None
+        self.drives = [Drive(tool, folder, k, 1, profile=profile, extra=extra) for k in range(3)]
+        text = (HERE / "machine.toml").read_text()
+        for name, drive in zip("xyz", self.drives):
+            text = text.replace(f'name = "{name}"\n', f'name = "{name}"\ndrive = "{drive.tcp_address(keys)}"\n')
+        self.machine = os.path.join(folder, "drives.toml")
+        pathlib.Path(self.machine).write_text(text)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.server and self.server.process.poll() is None:
+            self.server.process.kill()
+        for drive in self.drives:
+            if drive.process.poll() is None:
+                drive.process.kill()
+
+    def serve(self, *options):
+        self.server = Server(self.tool, self.folder, "--target", "modbus", *options, machine=self.machine)
+
+    def end(self, keep=False, signals=1):
+        """Ends the server, which must end well, and the drives, if they are not kept."""
+        status, told = self.server.end(signals)
+        problems = [] if keep else [problem for drive in self.drives for problem in drive.stop()]
+        if status != 0 or told or problems:
+            raise Failed(f"exit status {status}: {told} {problems}")
+
+    def counts(self):
+        """Where the shafts stand at the end of their records."""
+        return [round(drive.shaft_rows()[-1][1]) for drive in self.drives]
 
 
 class Sender:
@@ -87,7 +130,7 @@ class Sender:
         until = time.monotonic() + seconds
         while True:
             report = self.report()
-            if report[1:].split("|")[0] == state:
+            if report[1:].split("|")[0] in state.split("|"):
                 return report
             if time.monotonic() > until:
                 raise Failed(f"never {state}: {report}")

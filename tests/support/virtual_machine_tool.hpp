@@ -57,6 +57,7 @@ public:
     bool known = true;
     bool home_found = true;
     std::uint32_t spindle_ms = 0;    // that it takes to its speed
+    std::uint32_t halts_ms = 0;      // that it takes to halt by itself; 0: it does not
     std::vector<std::string> orders; // what it was told
 
     [[nodiscard]] bool has_room() const { return queue_.size() < 10; }
@@ -71,6 +72,9 @@ public:
             left -= queue_.front().duration_ticks;
             execute(queue_.front());
             queue_.pop_front();
+        }
+        if (halt_at_ != 0 && now_ >= halt_at_ && halts_ms > 0) {
+            stop_at(position_);
         }
         if (homing_ == HomingPhase::busy && now_ >= home_at_) {
             homing_ = home_found ? HomingPhase::done : HomingPhase::failed;
@@ -110,6 +114,10 @@ public:
         homing_ = HomingPhase::busy;
         home_at_ = now_ + 200;
     }
+    bool halt() noexcept override {
+        halt_at_ = now_ + halts_ms;
+        return halts_ms > 0;
+    }
     void quick_stop() noexcept override {
         homing_ = homing_ == HomingPhase::busy ? HomingPhase::failed : homing_;
         stop_at(position_);
@@ -123,6 +131,7 @@ private:
     void stop_at(const PerAxis<Position>& position) {
         queue_.clear();
         moves_ = false;
+        halt_at_ = 0;
         position_ = position;
         judge_.emplace(description_, 1);
     }
@@ -155,6 +164,7 @@ private:
     HomingPhase homing_ = HomingPhase::none;
     std::uint32_t now_ = 0;
     std::uint32_t home_at_ = 0;
+    std::uint32_t halt_at_ = 0; // 0: it does not halt
     std::uint32_t spindle_at_ = 0;
     double distance_ = 0.0;
     bool away_ = false;

@@ -45,11 +45,14 @@ public:
     virtual void watch_probe(bool away) noexcept = 0;
     /// Begins homing; read() says how it goes. @param axes  bits of the axes
     virtual void home(std::uint32_t axes) noexcept = 0;
+    /// Stops all axes on the path, sooner than the motion could brake: segments that it has are forgotten, and read()
+    /// says where it then stands. false: it does not do so, and the motion has to brake.
+    virtual bool halt() noexcept = 0;
     /// Stops all axes as hard as it can, off the path: segments that it has are forgotten.
     virtual void quick_stop() noexcept = 0;
     /// Switches the drives. @pre the machine stands
     virtual void enable(bool on) noexcept = 0;
-    /// Tries to end what `alarm` reports: faults of drives.
+    /// Tries to end what `alarm` reports: faults of drives. The machine does not stand until it has tried.
     virtual void reset_faults() noexcept = 0;
     /// The operator's offsets have changed and are to be kept.
     virtual void offsets_changed() noexcept = 0;

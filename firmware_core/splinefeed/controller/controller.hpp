@@ -111,6 +111,7 @@ private:
     [[nodiscard]] bool finish_home() noexcept;
     [[nodiscard]] bool is_late(bool dry) const noexcept;
     void watch() noexcept;
+    void brake() noexcept;
     void begin_ending(Ending ending) noexcept;
     void settle() noexcept;
     void end_reset() noexcept;
@@ -142,7 +143,7 @@ private:
     Ending ending_ = Ending::none;
     Alarm alarm_ = Alarm::none;
     bool locked_ = false; // until $H or $X, without an alarm
-    bool quick_ = false;  // the machine stops off the path
+    bool quick_ = false;  // the machine stops by itself: where it then stands the motion goes on
     bool held_ = false;
     bool door_ = false;
     bool closes_ = false; // the door's hold ends when the spindle has its speed

@@ -286,6 +286,13 @@ void Controller::cancel_jog() noexcept {
         accept();
     }
     ending_ = Ending::jog;
+    brake();
+}
+
+// The machine's own stop, where it has one: its segments need not be travelled to their end first.
+void Controller::brake() noexcept {
+    reading_ = machine_->read();
+    quick_ = quick_ || (!reading_.stands && machine_->halt());
     motion_->abort();
 }
 
@@ -312,8 +319,12 @@ void Controller::begin_ending(Ending ending) noexcept {
     forget_lines();
     task_ = Task::none;
     ending_ = ending;
-    motion_->abort();
     spindle_.stop_all();
+    brake();
+    if (ending == Ending::reset && (sleep_ || reading_.alarm != Alarm::none)) {
+        sleep_ ? machine_->enable(true) : machine_->reset_faults();
+        quick_ = true; // it may stand elsewhere then
+    }
 }
 
 void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
@@ -335,7 +346,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
     held_ = door_ = closes_ = tool_ = false;
     if (ending_ == Ending::none) {
         ending_ = Ending::alarm;
-        motion_->abort();
+        brake();
     }
 }
 
@@ -373,12 +384,7 @@ void Controller::end_reset() noexcept {
     offsets.g92_applies = false;
     interpreter.restart();
     interpreter.restore(offsets);
-    machine_->reset_faults();
-    if (sleep_) {
-        machine_->enable(true);
-        locked_ = true;
-    }
-    locked_ = locked_ || row_of(alarm_).stays;
+    locked_ = locked_ || sleep_ || row_of(alarm_).stays;
     alarm_ = Alarm::none;
     overrides_ = {};
     line_number_ = 0;

@@ -23,8 +23,8 @@ struct PortState {
 };
 
 /// Use: open(), then prepare(first). For each segment: while (room() == 0) poll(); submit(segment). Then complete(),
-/// and poll() until the phase is not `running`; at last power_off(), if the drives shall not stay on, and close().
-/// What a port does not need does nothing.
+/// and poll() until the phase is not `running`. Behind renew() another motion follows; at last power_off(), if the
+/// drives shall not stay on, and close(). What a port does not need does nothing.
 class MotionPort {
 public:
     MotionPort(const MotionPort&) = delete;
@@ -35,6 +35,9 @@ public:
     /// Makes the drives ready for a motion that begins where this segment does. It may take minutes (homing). After a
     /// failure nothing moves any more, or failure() and the port's reports say which drive has not confirmed it.
     [[nodiscard]] virtual PortFailure prepare(const FeedSegment& /*first*/) { return {}; }
+    /// Behind a motion that is over, idle or halted: the drives stay ready for another one, which begins where this
+    /// segment does. There the axes stand.
+    [[nodiscard]] virtual PortFailure renew(const FeedSegment& first) { return prepare(first); }
     /// Number of segments that submit() accepts now.
     [[nodiscard]] virtual int room() const noexcept = 0;
     /// Queues one segment. Returns false if the port is halted or in fault; the segment is then dropped. @pre room() >

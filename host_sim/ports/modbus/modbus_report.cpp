@@ -214,6 +214,7 @@ LinkReport modbus_report(const std::string& target, MachineDescription machine, 
         machine.settings.axes = std::min(machine.settings.axes, profile.axes);
     }
     const DriveTable table = drive_table(target, machine);
+    const WireClaims claims(table);
     return table.interpolate ? pvt_report(table, machine, !any_axes, seconds)
                              : target_report(table, machine, !any_axes, seconds);
 }

@@ -3,10 +3,10 @@
 // positions.
 #pragma once
 
-#include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/drive_table.hpp"
 #include "host_sim/output/place_text.hpp"
 #include "host_sim/ports/modbus/drive_sentence.hpp"
+#include "host_sim/ports/modbus/wire_claims.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/stop_sentence.hpp"
 
@@ -23,9 +23,9 @@ protected:
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
-        : machine_(&machine), table_(std::move(table)), home_(options.home),
+        : machine_(&machine), table_(std::move(table)), home_(options.home), claims_(table_),
           port_(wiring_of(table_, machine),
-                {.home = options.home, .reset = options.reset, .interrupted = &SignalWatch::interrupted}) {
+                {.home = options.home, .reset = options.reset, .interrupted = options.interrupted}) {
         require(port_.open());
     }
 
@@ -63,6 +63,7 @@ protected:
     const MachineDescription* machine_;
     DriveTable table_;
     bool home_; // prepare() finds the references: the axes then stand at 0
+    WireClaims claims_;
     Port port_;
 
 private:
@@ -75,14 +76,20 @@ private:
         return all.empty() ? "; nothing was moved" : text.text();
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    void set_ready(const RunOptions& options) override {
+        home_ = options.home;
+        port_.set_ready(options.home, options.reset);
+    }
+    [[nodiscard]] bool halts() const noexcept override { return true; }
+    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override { return 220'000; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return drive_sentence(table_, failure) + unconfirmed_drives(stopped());
     }
     [[nodiscard]] std::string halted(bool quick) const override { return stop_sentence(stopped(), quick); }
     [[nodiscard]] std::string finish() override {
-        if (machine_->drives_on_at_end.value_or(true)) {
-            return {};
-        }
+        return machine_->drives_on_at_end.value_or(true) ? std::string() : switch_off();
+    }
+    [[nodiscard]] std::string switch_off() override {
         port_.power_off();
         return not_switched_off(stopped());
     }

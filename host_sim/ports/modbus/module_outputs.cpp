@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/ports/modbus/module_buses.hpp"
 #include "host_sim/ports/modbus/own_wire.hpp"
+#include "host_sim/ports/modbus/wire_claims.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/switch_turns.hpp"
 
@@ -45,6 +46,17 @@ private:
     std::shared_ptr<ModuleBuses> buses_;
 };
 
+struct ClaimedBuses {
+    explicit ClaimedBuses(const ProgramLines& lines) : buses(lines) {
+        for (const IoModule& module : lines.modules) {
+            claims.add(module.address);
+        }
+    }
+
+    WireClaims claims;
+    ModuleBuses buses;
+};
+
 } // namespace
 
 ModuleOutputs make_module_outputs(const MachineDescription& machine, const std::string& target) {
@@ -60,7 +72,8 @@ ModuleOutputs make_module_outputs(const MachineDescription& machine, const std::
                                          module.address.text, in_quotes(module.name)));
         }
     }
-    const auto buses = std::make_shared<ModuleBuses>(machine.lines);
+    const auto claimed = std::make_shared<ClaimedBuses>(machine.lines);
+    const std::shared_ptr<ModuleBuses> buses(claimed, &claimed->buses);
     if (const std::string what = buses->open(); !what.empty()) {
         throw TargetError(what);
     }

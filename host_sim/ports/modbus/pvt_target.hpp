@@ -24,6 +24,7 @@ public:
 
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
+    [[nodiscard]] bool serves() const noexcept override { return true; }
     void check(const MachineDescription& machine, double segment_us) const override {
         check_pvt_range(machine, segment_us);
     }

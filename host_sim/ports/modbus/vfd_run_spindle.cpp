@@ -2,6 +2,7 @@
 #include "host_sim/ports/modbus/vfd_run_spindle.hpp"
 
 #include "host_sim/ports/modbus/own_wire.hpp"
+#include "host_sim/ports/modbus/wire_claims.hpp"
 #include "host_sim/ports/run_target.hpp"
 
 #include "splinefeed/hal/modbus/spindle/vfd_spindle.hpp"
@@ -18,7 +19,7 @@ namespace {
 class VfdRunSpindle final : public RunSpindle {
 public:
     explicit VfdRunSpindle(const SpindleDescription& spindle)
-        : spindle_(&spindle),
+        : spindle_(&spindle), claims_(spindle.vfd->address),
           vfd_({spindle.vfd->address.link, spindle.vfd->profile},
                {.at_speed_timeout_ms = static_cast<std::uint32_t>(std::lround(spindle.at_speed_timeout_s * 1e3))}) {
         if (const std::string what = vfd_.open(); !what.empty()) {
@@ -38,6 +39,7 @@ public:
 
 private:
     const SpindleDescription* spindle_;
+    WireClaims claims_;
     VfdSpindle vfd_;
 };
 

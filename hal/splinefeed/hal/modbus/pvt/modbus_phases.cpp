@@ -13,16 +13,16 @@ constexpr std::uint64_t phase_margin_us = 1'000'000; // for a host that is busy
 constexpr ModbusPhases::Table phases_of_port() noexcept {
     using enum ModbusPhase;
     return {{
-    //               ready     started   disturbed stands    executed  broken    overdue   stop      settled   failed
-    /* filling  */ {{starting, filling,  filling,  filling,  done,     halting,  halting,  halting,  filling,  filling}},
-    /* starting */ {{starting, running,  starting, starting, starting, halting,  stopping, halting,  starting, starting}},
-    /* running  */ {{running,  running,  stopping, running,  done,     halting,  halting,  halting,  running,  running}},
-    /* stopping */ {{stopping, stopping, stopping, waiting,  stopping, halting,  halting,  halting,  stopping, stopping}},
-    /* waiting  */ {{starting, waiting,  waiting,  waiting,  done,     halting,  halting,  halting,  waiting,  waiting}},
-    /* halting  */ {{halting,  halting,  halting,  halting,  halting,  halting,  fault,    halting,  halted,   fault}},
-    /* halted   */ {{halted,   halted,   halted,   halted,   halted,   halted,   halted,   halting,  halted,   halted}},
-    /* done     */ {{done,     done,     done,     done,     done,     halting,  done,     halting,  done,     done}},
-    /* fault    */ {{fault,    fault,    fault,    fault,    fault,    fault,    fault,    halting,  fault,    fault}},
+    //               ready     started   disturbed  stands    executed  broken    overdue   stop      settled   failed    renewed
+    /* filling  */ {{starting, filling,  filling,   filling,  done,     halting,  halting,  halting,  filling,  filling,  filling}},
+    /* starting */ {{starting, running,  starting,  starting, starting, halting,  stopping, halting,  starting, starting, starting}},
+    /* running  */ {{running,  running,  stopping,  running,  done,     halting,  halting,  halting,  running,  running,  running}},
+    /* stopping */ {{stopping, stopping, stopping,  waiting,  stopping, halting,  halting,  halting,  stopping, stopping, stopping}},
+    /* waiting  */ {{starting, waiting,  waiting,   waiting,  done,     halting,  halting,  halting,  waiting,  waiting,  waiting}},
+    /* halting  */ {{halting,  halting,  halting,   halting,  halting,  halting,  fault,    halting,  halted,   fault,    halting}},
+    /* halted   */ {{halted,   halted,   halted,    halted,   halted,   halted,   halted,   halting,  halted,   halted,   filling}},
+    /* done     */ {{done,     done,     done,      done,     done,     halting,  done,     halting,  done,     done,     filling}},
+    /* fault    */ {{fault,    fault,    fault,     fault,    fault,    fault,    fault,    halting,  fault,    fault,    filling}},
     }};
 }
 // clang-format on
@@ -31,8 +31,8 @@ constexpr ModbusPhases::Table phase_table = phases_of_port();
 
 constexpr std::array phase_names{"filling", "starting", "running", "stopping", "waiting",
                                  "halting", "halted",   "done",    "fault"};
-constexpr std::array event_names{"ready",  "started", "disturbed", "stands",  "executed",
-                                 "broken", "overdue", "stop",      "settled", "failed"};
+constexpr std::array event_names{"ready",   "started", "disturbed", "stands", "executed", "broken",
+                                 "overdue", "stop",    "settled",   "failed", "renewed"};
 static_assert(phase_names.size() == ModbusPhases::phases && event_names.size() == ModbusPhases::events);
 
 } // namespace

@@ -38,6 +38,7 @@ enum class ModbusEvent : std::uint8_t {
     stop,      ///< the user asks for a stop
     settled,   ///< every drive has confirmed its stop, or its time for that is over
     failed,    ///< the same, of a port that has a failure
+    renewed,   ///< another motion may follow
     count
 };
 

@@ -150,6 +150,8 @@ void ModbusPort::set_times(const FeedSegment& first) noexcept {
 }
 
 PortFailure ModbusPort::prepare(const FeedSegment& first) {
+    failure_.reset();
+    moves_ = referenced_ = false;
     set_times(first);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const auto reserve_ms = static_cast<std::uint16_t>(times_.reserve_us / 1000.0);
@@ -167,11 +169,39 @@ PortFailure ModbusPort::prepare(const FeedSegment& first) {
         await_stop();
     }
     if (!failure) {
-        update_drives();
-        executed_to_ = settings_.first_sequence;
-        phases_.progress(now_us_);
+        begin_motion();
     }
     return failure ? failed(*failure) : PortFailure{};
+}
+
+void ModbusPort::begin_motion() noexcept {
+    update_drives();
+    executed_to_ = drives_.front().client().pushed();
+    complete_ = false;
+    stop_.reset();
+    phases_.take(ModbusEvent::renewed, now_us_);
+    phases_.progress(now_us_);
+    for (PortDrive& drive : drives_) {
+        drive.clear_sent();
+        drive.client().hold_back(false);
+    }
+}
+
+// Behind a motion that was halted the drives may have segments left, which nobody wants any more.
+PortFailure ModbusPort::renew(const FeedSegment& first) {
+    if (phase() == ModbusPhase::halted) {
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+            if (!drives_[i].stand_at(first)) {
+                return failed({i, DriveProblem::range});
+            }
+        }
+        PvtSetup setup(drives_, times_, *settings_.clock);
+        if (const auto failure = setup.command(PvtCommand::begin, settings_.first_sequence)) {
+            return failed(*failure);
+        }
+    }
+    begin_motion();
+    return {};
 }
 
 std::optional<DriveFailure> ModbusPort::make_ready() {

@@ -43,8 +43,16 @@ public:
     /// Whether the positions that a drive reports are those of a machine: since its power-up a run has set them.
     /// Otherwise they count from anywhere. Before prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return report(drive).status.executed != 0; }
+    /// What prepare() does from now on.
+    void set_ready(bool home, bool reset) noexcept {
+        settings_.home = home;
+        settings_.reset = reset;
+    }
     /// Enables all drives, homes them if set, and presets their positions to first.start, where the motion begins.
+    /// Behind close() and open() it may be called again.
     [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
+    /// Waits for a command, where the motion before was halted. A drive that lost its power then needs prepare().
+    [[nodiscard]] PortFailure renew(const FeedSegment& first) override;
     [[nodiscard]] int room() const noexcept override;
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override { complete_ = true; }
@@ -85,6 +93,7 @@ private:
     [[nodiscard]] PortFailure find_other_master();
     void set_times(const FeedSegment& first) noexcept;
     [[nodiscard]] std::optional<DriveFailure> make_ready();
+    void begin_motion() noexcept;
     void take(ModbusEvent event) noexcept;
     void fail(std::size_t drive, DriveProblem problem, ModbusEvent event = ModbusEvent::broken) noexcept;
     [[nodiscard]] DriveProblem delay_by(const PortDrive& drive) const noexcept;

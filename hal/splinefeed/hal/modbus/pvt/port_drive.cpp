@@ -12,7 +12,7 @@ constexpr double command_transit_us = 10'000.0; // time for a command to arrive
 
 } // namespace
 
-DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
+bool PortDrive::stand_at(const FeedSegment& first) noexcept {
     const PvtStatus status = client_->report().status;
     for (const unsigned k : indices(client_->axes())) {
         last_.end[k] = std::int64_t{status.position[k]} * (1 << PvtSegment::position_bits);
@@ -21,10 +21,20 @@ DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_res
     standing.end = first.start;
     standing.end_velocity = {};
     if (!to_pvt(standing, wiring_.axes, last_)) {
-        return DriveProblem::range;
+        return false;
     }
     last_.rest = false;
     preset_ = last_.end;
+    trim_ = {};
+    lag_us_ = 0.0;
+    starting_ = start_refused_ = false;
+    return true;
+}
+
+DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
+    if (!stand_at(first)) {
+        return DriveProblem::range;
+    }
     return client_->configure({stop_reserve_ms, wiring_.watchdog_ms, wiring_.following_window});
 }
 

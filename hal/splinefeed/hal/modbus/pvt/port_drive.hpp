@@ -25,8 +25,10 @@ class PortDrive {
 public:
     PortDrive(DriveWiring wiring, PvtClient& client) : wiring_(std::move(wiring)), client_(&client) {}
 
-    /// Writes the configuration and takes first.start as the present position of the axes. @pre the bus is not started
+    /// stand_at(), and writes the configuration. @pre the bus is not started
     [[nodiscard]] DriveProblem prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept;
+    /// Takes first.start as the present position of the axes. Returns false if it does not fit the registers.
+    [[nodiscard]] bool stand_at(const FeedSegment& first) noexcept;
     /// Whether the segment fits the drive's registers.
     [[nodiscard]] bool carries(const FeedSegment& segment) const noexcept;
     /// Returns false, and sends nothing of it, if it does not fit the registers or there is no room.

@@ -60,6 +60,7 @@ DriveProblem PvtClient::start_session(int least_axes) noexcept {
     counter_ = report_.status.last_command;
     nonce_ = static_cast<std::uint16_t>(report_.status.nonce + 1U);
     began_ = false;
+    clear_command(); // of the session before
     return DriveProblem::none;
 }
 

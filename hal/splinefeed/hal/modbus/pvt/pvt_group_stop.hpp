@@ -18,6 +18,13 @@ public:
         sequence_.set_times(times);
         times_ = port;
     }
+    /// Before another motion. @pre the axes may move
+    void reset() noexcept {
+        sequence_.reset();
+        for (PvtStop& stop : stops_) {
+            stop.reset();
+        }
+    }
     /// @param hold_at_us  when a hold begins for all drives; used with the first request [us]
     void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
                  std::span<const PortDrive> drives) noexcept;

@@ -26,6 +26,12 @@ public:
     /// @param axes  of the drive, for the windows in which their shafts stand
     PvtStop(PvtClient& client, std::span<const PvtAxis> axes) noexcept;
 
+    /// What was requested before is over.
+    void reset() noexcept {
+        pending_ = executed_ = StopRequest::none;
+        command_ = PvtCommand::none;
+        hold_ = Hold::none;
+    }
     /// Takes the drive's last report. @pre not older than the previous one
     void update(const DriveReport& report, const PortTimes& times) noexcept;
     /// Sends a request once, in place of a pending command; sends it again after a refusal.

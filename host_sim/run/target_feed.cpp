@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/target_feed.hpp"
+
+#include "splinefeed/base/units.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <exception>
+
+namespace splinefeed::host {
+
+using hal::system_clock;
+
+namespace {
+
+constexpr std::uint64_t halt_us = 10 * us_per_s;    // then a hold becomes a quick stop,
+constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for the port any more
+
+// No sentence is a run that ended well.
+std::string or_unsaid(const std::string& why) {
+    return why.empty() ? std::string("the motion was stopped, and nothing says why") : why;
+}
+
+} // namespace
+
+bool TargetFeed::room() const noexcept {
+    const std::uint64_t ahead = pushed_ticks_ - taken_ticks_.load(std::memory_order_relaxed);
+    return ring_.empty() || (ring_.room() > 0 && ahead < hand_over_us * static_cast<std::uint64_t>(ticks_per_us));
+}
+
+// In this order: what is pushed behind an end is not taken for a part of the motion before.
+void TargetFeed::push(const FeedSegment& segment) noexcept {
+    complete_.store(false);
+    pushed_ticks_ += segment.duration_ticks;
+    ++pushed_;
+    ring_.push(segment);
+}
+
+void TargetFeed::order(const ProgramAction& action, bool standing) {
+    constexpr std::uint64_t stood = 2; // a port may take a segment before its last step is made
+    const std::lock_guard lock(order_mutex_);
+    orders_.push_back({action, pushed_ + (standing ? stood : 0)});
+}
+
+bool TargetFeed::carried_out() const {
+    const std::lock_guard lock(order_mutex_);
+    return orders_.empty() && (outputs_ == nullptr || outputs_->reached());
+}
+
+void TargetFeed::end_outputs() {
+    if (outputs_ != nullptr) {
+        outputs_->end();
+        outputs_ended_ = true;
+    }
+}
+
+void TargetFeed::set_outputs(ProgramOutputs* outputs) {
+    const std::lock_guard lock(order_mutex_);
+    outputs_ = outputs;
+    orders_.clear();
+    outputs_ended_ = false;
+    trouble_.clear();
+}
+
+// Orders whose place the machine has reached; and the outputs' own trouble, which holds the motion.
+void TargetFeed::tend_outputs() {
+    if (outputs_ == nullptr) {
+        return;
+    }
+    {
+        const std::lock_guard lock(order_mutex_);
+        while (obeyed_ == 0 && !orders_.empty() && executed() >= orders_.front().after) {
+            outputs_->act(orders_.front().action);
+            orders_.pop_front();
+        }
+    }
+    outputs_->update();
+    if (obeyed_ == 0) {
+        set_trouble(outputs_->trouble());
+    }
+}
+
+void TargetFeed::ask(int requests) {
+    if (requests <= obeyed_) {
+        return;
+    }
+    obeyed_us_ = system_clock().now_us();
+    obeyed_ = requests;
+    if (requests > 1) {
+        end_outputs();
+        port_->quick_stop();
+    } else {
+        port_->halt();
+    }
+}
+
+void TargetFeed::begin(std::uint64_t done) noexcept {
+    done_before_ = done;
+    began_at_ = taken_;
+    executed_.store(taken_);
+    obeyed_ = 0;
+    completed_ = false;
+}
+
+void TargetFeed::drop() noexcept {
+    FeedSegment segment;
+    while (ring_.pop(segment)) {
+        taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
+        ++taken_;
+    }
+}
+
+void TargetFeed::hand_over() {
+    FeedSegment segment;
+    bool takes = !completed_;
+    while (takes && port_->room() > 0 && ring_.pop(segment)) {
+        taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
+        ++taken_;
+        last_ = segment;
+        takes = port_->submit(segment);
+        if (record_ != nullptr) {
+            record_->handed(segment.duration_ticks);
+        }
+    }
+    // In this order: what was pushed before complete_ is seen. An end may be that of a motion that was halted.
+    const bool complete = complete_.load() && taken_ != began_at_;
+    if (complete && !completed_ && ring_.empty()) {
+        completed_ = true;
+        port_->complete();
+    }
+}
+
+std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed) {
+    switch (phase) {
+    case hal::PortPhase::fault: {
+        end_outputs();
+        const hal::PortFailure failure = port_->failure();
+        return MotionEnd{MotionEnd::Kind::fault, or_unsaid(failure ? target_->sentence(failure) : std::string())};
+    }
+    case hal::PortPhase::halted: return MotionEnd{MotionEnd::Kind::halted, or_unsaid(target_->halted(obeyed_ > 1))};
+    case hal::PortPhase::idle:
+        return completed ? std::optional(MotionEnd{MotionEnd::Kind::complete,
+                                                   target_->achieved() ? std::string() : target_->holds()})
+                         : std::nullopt;
+    case hal::PortPhase::running: break;
+    }
+    return std::nullopt;
+}
+
+// A stop that does not end.
+std::optional<MotionEnd> TargetFeed::insist() {
+    const std::uint64_t now_us = system_clock().now_us();
+    if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
+        obeyed_ = 2;
+        end_outputs();
+        port_->quick_stop();
+    } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
+        return MotionEnd{MotionEnd::Kind::fault, "interrupted, but not every drive has confirmed that it stands"};
+    }
+    return std::nullopt;
+}
+
+std::optional<MotionEnd> TargetFeed::look(int requests) {
+    hal::PortState state;
+    const bool completed = completed_;
+    try {
+        ask(requests);
+        state = port_->poll();
+        hold_asked_.store(!target_->holds().empty());
+        hand_over();
+    } catch (const std::exception& error) {
+        set_trouble(error.what());
+        ask(1);
+        state = port_->poll();
+    }
+    executed_.store(began_at_ + (state.executed - done_before_));
+    if (record_ != nullptr) {
+        record_->looked(system_clock().now_us(), executed());
+    }
+    std::optional<MotionEnd> end = end_of(state.phase, completed);
+    end = end ? end : insist();
+    if (!end) {
+        tend_outputs();
+        ask(trouble_.empty() ? 0 : 1);
+    }
+    return end;
+}
+
+} // namespace splinefeed::host

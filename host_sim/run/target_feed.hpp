@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// TargetFeed: passes planned segments to a target, in the planner's place, and stops it.
+#pragma once
+
+#include "host_sim/ports/program_outputs.hpp"
+#include "host_sim/ports/run_target.hpp"
+#include "host_sim/report/target_record.hpp"
+
+#include "splinefeed/s4_segment_stream/segment_ring.hpp"
+
+#include <array>
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace splinefeed::host {
+
+/// How a motion of a target ended.
+struct MotionEnd {
+    enum class Kind : std::uint8_t {
+        complete, ///< everything was executed; with a reason: up to where the target held the plan
+        halted,   ///< it was asked to stop
+        fault,
+    };
+    Kind kind = Kind::complete;
+    std::string why; ///< empty: everything was executed
+};
+
+/// For two threads: the planner's pushes segments and orders, the one that supervises looks every millisecond. It knows
+/// motions, and no program: a run has one of them (Supervision), a machine that is served has many (ServedTarget).
+class TargetFeed {
+public:
+    /// How far the planner may be ahead of the port. [us] More would only delay a hold.
+    static constexpr std::uint64_t hand_over_us = 10'000;
+
+    /// All arguments must outlive it. @param outputs, record  null: there are none
+    explicit TargetFeed(RunTarget& target, ProgramOutputs* outputs = nullptr, TargetRecord* record = nullptr)
+        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record) {}
+    TargetFeed(const TargetFeed&) = delete;
+    TargetFeed& operator=(const TargetFeed&) = delete;
+
+    // For the planner's thread:
+
+    /// Whether push() may be called.
+    [[nodiscard]] bool room() const noexcept;
+    /// @pre room()
+    void push(const FeedSegment& segment) noexcept;
+    /// The last segment was the end of the motion, which is at rest there. Another push() begins another motion.
+    void complete() noexcept { complete_.store(true); }
+    /// Of all motions.
+    [[nodiscard]] std::uint64_t pushed() const noexcept { return pushed_; }
+    /// An order for the outputs, behind all segments so far. @param standing  the machine stands there
+    void order(const ProgramAction& action, bool standing);
+    [[nodiscard]] bool carried_out() const;
+
+    // For any thread:
+
+    /// Whether the plan has to be held, and ends there.
+    [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
+    /// Segments of all motions that were executed.
+    [[nodiscard]] std::uint64_t executed() const noexcept { return executed_.load(); }
+
+    // For the thread that supervises:
+
+    /// The port is prepared: its motion begins. @param done  what it has executed until now is none of it
+    void begin(std::uint64_t done) noexcept;
+    /// Once a millisecond. Nothing: the motion goes on, or has not begun.
+    /// @param requests  to stop, by now: the first one holds all axes on the path, the second one stops them at once
+    [[nodiscard]] std::optional<MotionEnd> look(int requests);
+    /// Drops what the port has not taken.
+    void drop() noexcept;
+    /// Whether a segment waits for the port.
+    [[nodiscard]] bool waits() const noexcept { return !ring_.empty(); }
+    /// The first one. @pre waits()
+    [[nodiscard]] const FeedSegment& front() const noexcept { return ring_.front(); }
+    /// Segments that the port has taken, or that were dropped.
+    [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
+    /// Requests to stop that were obeyed.
+    [[nodiscard]] int obeyed() const noexcept { return obeyed_; }
+    /// Carries out what is due, and keeps the outputs going; what is not as ordered is trouble(). look() does it, too,
+    /// and stops the motion then.
+    void tend_outputs();
+    void end_outputs();
+    [[nodiscard]] bool outputs_ended() const noexcept { return outputs_ended_; }
+    /// In place of those that have ended. May be null.
+    void set_outputs(ProgramOutputs* outputs);
+    /// The last segment that the port has taken.
+    [[nodiscard]] const FeedSegment& last() const noexcept { return last_; }
+    /// Why the axes are stopped, where nobody asked for it; the first reason stays.
+    void set_trouble(const std::string& why) { trouble_ = trouble_.empty() ? why : trouble_; }
+    [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
+
+private:
+    static constexpr std::size_t capacity = 512; // hand_over_us of the shortest segments
+
+    void ask(int requests);
+    void hand_over();
+    [[nodiscard]] std::optional<MotionEnd> end_of(hal::PortPhase phase, bool completed);
+    [[nodiscard]] std::optional<MotionEnd> insist();
+
+    RunTarget* target_;
+    hal::MotionPort* port_; // of the target
+    ProgramOutputs* outputs_;
+    TargetRecord* record_;
+    std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
+    SegmentRing ring_{segments_};
+    std::uint64_t pushed_ticks_ = 0; // used by the planner only
+    std::uint64_t pushed_ = 0;       // segments; likewise
+    struct DueOrder {
+        ProgramAction action;
+        std::uint64_t after = 0; // so many segments
+    };
+    mutable std::mutex order_mutex_;
+    std::deque<DueOrder> orders_; // protected by it
+    std::atomic<std::uint64_t> taken_ticks_{0};
+    std::atomic<bool> hold_asked_{false};
+    std::atomic<bool> complete_{false}; // no more segments come, and the last one ends at rest
+    std::atomic<std::uint64_t> executed_{0};
+    // Used by the thread that supervises:
+    int obeyed_ = 0; // number of requests to end that were obeyed
+    std::uint64_t obeyed_us_ = 0;
+    std::uint64_t taken_ = 0;
+    std::uint64_t done_before_ = 0; // by the port: of moves to the references, and of motions before
+    std::uint64_t began_at_ = 0;    // segments of motions before
+    FeedSegment last_;
+    bool completed_ = false;
+    bool outputs_ended_ = false;
+    std::string trouble_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/serve/served_target.hpp"
+
+#include "host_sim/config/decimal_number.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::host {
+
+namespace {
+
+ProgramAction action_of(const ProgramEvent& event) {
+    ProgramAction out{.kind = event.kind, .number = event.number, .value = number_of(event.value), .text = {}};
+    switch (event.kind) {
+    case EventKind::spindle_clockwise: out.spindle = SpindleTurn{1, out.value}; break;
+    case EventKind::spindle_counterclockwise: out.spindle = SpindleTurn{-1, out.value}; break;
+    case EventKind::spindle_stop: out.spindle = SpindleTurn{}; break;
+    default: break;
+    }
+    return out;
+}
+
+} // namespace
+
+std::atomic<bool> ServedTarget::gives_up_{false};
+
+ServedTarget::ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescription& machine,
+                           std::uint32_t segment_ticks, const PerAxis<double>& told_mm, MakeOutputs outputs)
+    : machine_(&machine), target_(std::move(target)), make_outputs_(std::move(outputs)), outputs_(make_outputs_()),
+      feed_(*target_, outputs_.get()), segment_ticks_(segment_ticks) {
+    known_.mm = told_mm;
+    find_place();
+    thread_ = std::thread([this] { work(); });
+}
+
+ServedTarget::~ServedTarget() {
+    static_cast<void>(finish());
+}
+
+std::string ServedTarget::finish() {
+    gives_up_.store(true);
+    leaves_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    return unconfirmed_;
+}
+
+void ServedTarget::advance(Time now) {
+    constexpr std::chrono::milliseconds while_it_moves{50}; // answers of drives may be late
+    const std::uint64_t executed = feed_.executed();
+    moved_ = executed != seen_ ? now : moved_;
+    seen_ = executed;
+    stalls_ = now - moved_ > while_it_moves;
+}
+
+// A port begins when it has enough, or all: a plan that waits for lines, and a port that waits for the plan, would wait
+// for ever.
+bool ServedTarget::is_dry() const {
+    const std::uint64_t left_ticks = (feed_.pushed() - std::min(feed_.pushed(), feed_.executed())) * segment_ticks_;
+    return stalls_ || left_ticks < target_->least_ahead_us() * static_cast<std::uint64_t>(ticks_per_us);
+}
+
+void ServedTarget::submit(const FeedSegment& segment) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++submitted_;
+    }
+    rests_ = false;
+    feed_.push(segment);
+}
+
+void ServedTarget::rest() {
+    if (!std::exchange(rests_, true)) {
+        feed_.complete();
+    }
+}
+
+bool ServedTarget::stands() const {
+    const std::lock_guard lock(mutex_);
+    return submitted_ == finished_ && !busy_ && !orders_.any();
+}
+
+std::vector<RunTarget::AxisPlace> ServedTarget::places() const {
+    std::vector<RunTarget::AxisPlace> out;
+    const std::lock_guard lock(mutex_);
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.push_back({k, known_.places ? std::optional(known_.mm[k]) : std::nullopt});
+    }
+    return out;
+}
+
+MachineReading ServedTarget::read() noexcept {
+    MachineReading out;
+    out.stands = stands();
+    out.spindle_ready = feed_.carried_out();
+    const std::lock_guard lock(mutex_);
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.position[k] = position_from_mm(known_.mm[k]);
+    }
+    out.known = known_.places;
+    out.homing = known_.homing;
+    out.alarm = known_.alarm;
+    out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
+    sentence_ = known_.sentence;
+    out.alarm_sentence = sentence_;
+    return out;
+}
+
+// The controller lets the machine stand before what has to wait for that.
+void ServedTarget::obey(const ProgramEvent& event) noexcept {
+    feed_.order(action_of(event), false);
+}
+
+void ServedTarget::home(std::uint32_t axes) noexcept {
+    gives_up_.store(false);
+    const std::lock_guard lock(mutex_);
+    orders_.home = axes;
+    known_.homing = HomingPhase::busy;
+}
+
+bool ServedTarget::halt() noexcept {
+    const std::lock_guard lock(mutex_);
+    const bool halts = submitted_ != finished_ && target_->halts();
+    orders_.stops = halts ? std::max(orders_.stops, 1) : orders_.stops;
+    return halts;
+}
+
+void ServedTarget::quick_stop() noexcept {
+    gives_up_.store(true);
+    const std::lock_guard lock(mutex_);
+    orders_.stops = submitted_ != finished_ ? 2 : orders_.stops;
+}
+
+void ServedTarget::enable(bool on) noexcept {
+    const std::lock_guard lock(mutex_);
+    (on ? orders_.opens : orders_.off) = true;
+}
+
+void ServedTarget::reset_faults() noexcept {
+    const std::lock_guard lock(mutex_);
+    orders_.opens = true;
+    known_.alarm = Alarm::none;
+    known_.sentence.clear();
+}
+
+} // namespace splinefeed::host

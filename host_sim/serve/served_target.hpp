@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// ServedTarget: a real target, for a controller: drives on Modbus, lines of GPIO chips.
+#pragma once
+
+#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/run/target_feed.hpp"
+#include "host_sim/serve/served_machine.hpp"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace splinefeed::host {
+
+/// Its own thread supervises the port, as that of a run does, by the same TargetFeed: stops and switches act whatever
+/// the server does. Each motion, from standstill to standstill, is one of the port; behind its end the port is renewed
+/// at once. The drives are enabled when the first motion begins, and stay so.
+///
+///     closed --open, read where it stands--> open --the first segment--> ready <--> motions
+///        ^                                    |                            |
+///        +---- drives off, or a reset --------+------- failed <------------+ a fault, a stop that is not confirmed
+class ServedTarget final : public ServedMachine {
+public:
+    using MakeOutputs = std::function<std::unique_ptr<ProgramOutputs>()>;
+
+    /// Reads where the machine stands, and begins its thread. A drive in fault is an alarm.
+    /// @param machine  must outlive it   @param segment_ticks  of its plans
+    /// @param told_mm  where axes stand that do not know it
+    /// @param outputs  makes them; called again behind a reset that ended them
+    ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescription& machine, std::uint32_t segment_ticks,
+                 const PerAxis<double>& told_mm, MakeOutputs outputs);
+    ~ServedTarget() override;
+
+    /// What searches for references poll: RunOptions::interrupted.
+    [[nodiscard]] static bool gives_up() noexcept { return gives_up_.load() || SignalWatch::interrupted(); }
+
+    void advance(Time now) override;
+    [[nodiscard]] bool has_room() const override { return feed_.room(); }
+    [[nodiscard]] bool is_dry() const override;
+    void submit(const FeedSegment& segment) override;
+    void rest() override;
+    [[nodiscard]] bool stands() const override;
+    [[nodiscard]] std::vector<RunTarget::AxisPlace> places() const override;
+    [[nodiscard]] std::string finish() override;
+
+    MachineReading read() noexcept override;
+    void obey(const ProgramEvent& event) noexcept override;
+    void watch_probe(bool /*away*/) noexcept override {}
+    void home(std::uint32_t axes) noexcept override;
+    bool halt() noexcept override;
+    void quick_stop() noexcept override;
+    void enable(bool on) noexcept override;
+    void reset_faults() noexcept override;
+
+private:
+    enum class Phase : std::uint8_t { closed, open, ready, failed };
+    /// What the server's thread asks for; the other one does it, in this order.
+    struct Orders {
+        int stops = 0;          ///< as TargetFeed::look
+        bool off = false;       ///< the drives
+        bool opens = false;     ///< what is closed or has failed
+        std::uint32_t home = 0; ///< axes
+
+        [[nodiscard]] bool any() const noexcept { return off || opens || home != 0; }
+    };
+    /// What the thread knows, for the server's.
+    struct Known {
+        PerAxis<double> mm{};
+        bool places = false; ///< these are the machine's
+        HomingPhase homing = HomingPhase::none;
+        Alarm alarm = Alarm::none;
+        std::string sentence{};
+        double speed_mm_s = 0.0;
+    };
+
+    void work() noexcept;
+    void step();
+    [[nodiscard]] Orders take_orders();
+    void find_place();
+    void begin_first();
+    void make_ready(const FeedSegment& first);
+    void end_motion(const MotionEnd& end);
+    void finish_motion();
+    void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
+    void look_where(bool at_once);
+    [[nodiscard]] FeedSegment standing() const;
+    void close();
+    void reopen();
+    void recover();
+    void switch_off();
+    void find_references(std::uint32_t axes);
+    void leave();
+
+    static std::atomic<bool> gives_up_;
+
+    const MachineDescription* machine_;
+    std::unique_ptr<RunTarget> target_;
+    MakeOutputs make_outputs_;
+    std::unique_ptr<ProgramOutputs> outputs_;
+    TargetFeed feed_;
+    std::uint32_t segment_ticks_;
+    // Of the server's thread:
+    std::string sentence_;   // of the last reading
+    FeedSegment last_;       // submitted
+    bool rests_ = true;      // rest() was called behind it
+    std::uint64_t seen_ = 0; // executed,
+    Time moved_{};           // when that changed
+    bool stalls_ = true;     // it has not for a while: the port waits for more, or has not begun
+    // Shared:
+    mutable std::mutex mutex_; // protects the members below
+    Orders orders_;
+    Known known_;
+    std::uint64_t submitted_ = 0; // segments
+    std::uint64_t finished_ = 0;  // of motions that are over
+    bool busy_ = false;           // an order is carried out
+    // Of the thread:
+    Phase phase_ = Phase::closed;
+    RunOptions options_;
+    std::uint64_t looked_us_ = 0; // where it stands
+    std::string unconfirmed_;     // at its end
+    std::atomic<bool> leaves_{false};
+    std::thread thread_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+//
+// What the thread of a ServedTarget does: motions of the port, and all that takes longer.
+#include "host_sim/serve/served_target.hpp"
+
+#include "splinefeed/base/units.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using hal::system_clock;
+
+namespace {
+
+constexpr std::uint64_t poll_every_us = 1000;
+constexpr std::uint64_t look_every_us = 40'000; // where it stands
+
+} // namespace
+
+void ServedTarget::work() noexcept {
+    for (std::uint64_t next_us = system_clock().now_us(); !leaves_.load();
+         next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
+        system_clock().sleep_until_us(next_us);
+        try {
+            step();
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
+    }
+    try {
+        leave();
+    } catch (const std::exception& error) {
+        unconfirmed_ = error.what();
+    }
+}
+
+// Outputs end as those of a run do; then the drives become what the machine file says.
+void ServedTarget::leave() {
+    constexpr std::uint64_t every_us = 10 * poll_every_us;
+    if (outputs_ != nullptr) {
+        outputs_->end();
+    }
+    const int signals = SignalWatch::interrupts();
+    while (outputs_ != nullptr && outputs_->ends() && SignalWatch::interrupts() <= signals) {
+        system_clock().sleep_us(every_us);
+    }
+    unconfirmed_ = outputs_ != nullptr ? outputs_->unended() : std::string();
+    if (phase_ == Phase::ready || phase_ == Phase::failed) {
+        const std::string drives = target_->finish();
+        unconfirmed_ += drives.empty() || unconfirmed_.empty() ? drives : "; " + drives;
+    }
+    target_->port().close();
+}
+
+ServedTarget::Orders ServedTarget::take_orders() {
+    const std::lock_guard lock(mutex_);
+    const bool moves = submitted_ != finished_;
+    orders_.stops = moves ? std::max(orders_.stops, std::min(SignalWatch::interrupts(), 2)) : 0;
+    Orders out = orders_;
+    orders_ = {.stops = out.stops};
+    busy_ = out.any();
+    return out;
+}
+
+void ServedTarget::step() {
+    const Orders orders = take_orders();
+    if (orders.off) {
+        switch_off();
+    }
+    if (orders.opens) {
+        recover();
+    }
+    if (orders.home != 0) {
+        find_references(orders.home);
+    }
+    if (orders.any()) {
+        const std::lock_guard lock(mutex_);
+        busy_ = false;
+    }
+    if (phase_ == Phase::ready) {
+        if (const std::optional<MotionEnd> end = feed_.look(orders.stops)) {
+            end_motion(*end);
+        } else {
+            look_where(false);
+        }
+        return;
+    }
+    feed_.tend_outputs();
+    if (phase_ == Phase::open && feed_.waits()) {
+        begin_first();
+    } else if (feed_.waits()) {
+        feed_.drop();
+        finish_motion();
+    }
+}
+
+// The drives say where they stand; what they do not know has been told.
+void ServedTarget::find_place() {
+    std::vector<RunTarget::AxisPlace> places;
+    try {
+        places = target_->standing();
+    } catch (const TargetError& error) {
+        fail(error.what());
+        return;
+    }
+    phase_ = Phase::open;
+    const std::lock_guard lock(mutex_);
+    known_.places = !places.empty();
+    for (const RunTarget::AxisPlace& at : places) {
+        known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
+        known_.places = known_.places && at.mm.has_value();
+    }
+}
+
+// Where the motion begins the machine has to stand: else a position would get another name.
+void ServedTarget::begin_first() {
+    const FeedSegment first = feed_.front();
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        const double counts = static_cast<double>(first.start[k]) / static_cast<double>(units_per_count);
+        const double off = std::fabs(counts - known_.mm[k] * machine_->settings.axis[k].steps_per_mm);
+        if (off > standstill_window_counts(*machine_, k)) {
+            fail(fmt::format("axis {} stands elsewhere than where the motion begins: reset", machine_->axis_name[k]));
+            return;
+        }
+    }
+    make_ready(first);
+}
+
+void ServedTarget::make_ready(const FeedSegment& first) {
+    target_->set_ready(options_);
+    hal::MotionPort& port = target_->port();
+    if (const hal::PortFailure failure = port.prepare(first)) {
+        fail(target_->sentence(failure));
+        return;
+    }
+    options_.reset = options_.home = false;
+    phase_ = Phase::ready;
+    feed_.begin(port.poll().executed);
+    const std::lock_guard lock(mutex_);
+    known_.places = true;
+}
+
+FeedSegment ServedTarget::standing() const {
+    FeedSegment out{.duration_ticks = segment_ticks_};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.start[k] =
+            std::llround(known_.mm[k] * machine_->settings.axis[k].steps_per_mm * static_cast<double>(units_per_count));
+    }
+    out.end = out.start;
+    return out;
+}
+
+void ServedTarget::close() {
+    target_->port().close();
+    phase_ = Phase::closed;
+}
+
+void ServedTarget::switch_off() {
+    if (phase_ == Phase::ready) {
+        if (const std::string what = target_->switch_off(); !what.empty()) {
+            fail(what);
+            return;
+        }
+    }
+    close();
+}
+
+// Behind a fault, or with drives that were off: everything anew, and their faults are reset.
+void ServedTarget::recover() {
+    if (feed_.outputs_ended() || !feed_.trouble().empty()) {
+        feed_.set_outputs(nullptr);
+        outputs_.reset();
+        outputs_ = make_outputs_();
+        feed_.set_outputs(outputs_.get());
+    }
+    if (phase_ != Phase::closed && phase_ != Phase::failed) {
+        return;
+    }
+    options_.reset = phase_ == Phase::failed;
+    reopen();
+    if (phase_ == Phase::open && options_.reset && known_.places) {
+        make_ready(standing());
+    }
+}
+
+void ServedTarget::reopen() {
+    close();
+    target_->set_ready(options_);
+    if (const hal::PortFailure failure = target_->port().open()) {
+        fail(target_->sentence(failure));
+    } else {
+        find_place();
+    }
+}
+
+void ServedTarget::find_references(std::uint32_t /*axes*/) {
+    if (phase_ == Phase::ready || phase_ == Phase::closed) {
+        reopen();
+    }
+    if (phase_ == Phase::open) {
+        {
+            const std::lock_guard lock(mutex_);
+            known_.mm = {};
+        }
+        options_.home = true;
+        make_ready(standing());
+        options_.home = false;
+    }
+    const std::lock_guard lock(mutex_);
+    const bool found = phase_ == Phase::ready;
+    known_.homing = found ? HomingPhase::done : HomingPhase::failed;
+    known_.alarm = Alarm::none; // the controller says that it was not found
+    phase_ = found ? phase_ : Phase::closed;
+}
+
+void ServedTarget::end_motion(const MotionEnd& end) {
+    const FeedSegment last = feed_.last();
+    feed_.drop();
+    if (!feed_.trouble().empty()) {
+        fail(feed_.trouble(), Alarm::spindle_speed);
+        return;
+    }
+    if (end.kind == MotionEnd::Kind::fault) {
+        fail(end.why);
+        return;
+    }
+    FeedSegment next{.duration_ticks = segment_ticks_, .start = last.end, .end = last.end};
+    if (end.kind == MotionEnd::Kind::halted) {
+        look_where(true);
+        if (!known_.places) {
+            fail(end.why, Alarm::stopped_in_motion);
+            return;
+        }
+        next = standing();
+    } else {
+        const std::lock_guard lock(mutex_);
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            known_.mm[k] = static_cast<double>(last.end[k]) /
+                           (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
+        }
+    }
+    if (end.kind == MotionEnd::Kind::complete && !end.why.empty()) { // a switch held the plan
+        fail(end.why, Alarm::limit_switch);
+        return;
+    }
+    if (const hal::PortFailure failure = target_->port().renew(next)) {
+        fail(target_->sentence(failure));
+        return;
+    }
+    feed_.begin(target_->port().poll().executed);
+    finish_motion();
+}
+
+void ServedTarget::fail(const std::string& sentence, Alarm alarm) {
+    if (phase_ == Phase::ready) {
+        look_where(true);
+    }
+    feed_.drop();
+    feed_.begin(0);
+    phase_ = Phase::failed;
+    {
+        const std::lock_guard lock(mutex_);
+        known_.alarm = alarm;
+        known_.sentence = sentence;
+    }
+    finish_motion();
+}
+
+void ServedTarget::finish_motion() {
+    const std::lock_guard lock(mutex_);
+    finished_ = feed_.taken();
+    orders_.stops = 0;
+    known_.speed_mm_s = 0.0;
+}
+
+// While it stands, its place is that to the last digit where the motion ended.
+void ServedTarget::look_where(bool at_once) {
+    const std::uint64_t now_us = system_clock().now_us();
+    if (!at_once && now_us < looked_us_ + look_every_us) {
+        return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        if (submitted_ == finished_ && !at_once) {
+            return;
+        }
+    }
+    const std::vector<RunTarget::AxisPlace> places = target_->places();
+    const std::lock_guard lock(mutex_);
+    double way_sq = 0.0;
+    known_.places = known_.places && !places.empty();
+    for (const RunTarget::AxisPlace& at : places) {
+        const double mm = at.mm.value_or(known_.mm[at.axis]);
+        way_sq += (mm - known_.mm[at.axis]) * (mm - known_.mm[at.axis]);
+        known_.mm[at.axis] = mm;
+        known_.places = known_.places && at.known().has_value();
+    }
+    known_.speed_mm_s =
+        std::sqrt(way_sq) * us_per_s / static_cast<double>(std::max<std::uint64_t>(1, now_us - looked_us_));
+    looked_us_ = now_us;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""`splinefeed serve` on three simulated Modbus drives, each a process: target_runs.py TOOL [CASE...].
+
+What the drives record decides: where their shafts stand at the end, that none moves when nothing was asked for, and that a stop ends on the path.
+"""
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+from sender import Failed, Sender, ServedDrives
+
+STEPS = 320.0
+
+
+def require(true, what):
+    if not true:
+        raise Failed(what)
+
+
+def unlocked(drives, *options):
+    """A sender of a new server, whose machine may move; the drives were never told where they stand."""
+    drives.serve(*options)
+    sender = Sender(drives.server)
+    require(sender.line() == "" and sender.line().startswith("Grbl 1.1"), "no greeting")
+    if sender.report().startswith("<Alarm"):
+        require("unlock" in sender.line(), "it does not say how to unlock it")
+        sender.send(b"$X\n")
+        require("Unlocked" in sender.line() and sender.line() == "ok", "it stays locked")
+    return sender
+
+
+def say(sender, line):
+    """The answer to a line; what is said before it in brackets does not count."""
+    sender.send(line + b"\n")
+    while True:
+        answer = sender.line()
+        if not answer.startswith(("[", "<")):
+            return answer
+
+
+def await_line(sender, begin):
+    while not sender.line().startswith(begin):
+        pass
+
+
+def go(sender, line):
+    require(say(sender, line) == "ok", line)
+    sender.until("Idle")
+    return sender.place()
+
+
+def underway(sender, mm):
+    """Once x is beyond mm, either way."""
+    until = time.monotonic() + 20.0
+    begin = sender.place()[0]
+    while abs(sender.place()[0] - begin) < mm:
+        if time.monotonic() > until:
+            raise Failed("it does not move")
+        time.sleep(0.01)
+
+
+def motion(drives):
+    """MDI, jogs, a streamed program with a dwell, overrides: each ends where it was told, to the count."""
+    sender = unlocked(drives)
+    require(go(sender, b"G0 X10 Y5 Z-2.5") == [10.0, 5.0, -2.5], "MDI")
+    require(go(sender, b"$J=G91 X-4 F3000") == [6.0, 5.0, -2.5], "a jog")
+    for _ in range(4):
+        require(say(sender, b"$J=G91 Y0.5 F600") == "ok", "a jog behind a jog")
+    sender.until("Idle")
+    require(sender.place() == [6.0, 7.0, -2.5], "four jogs")
+    lines = [b"G1 F5000\n"] + [b"X%.3fY%.3f\n" % (40 + 20 * math.cos(n / 50), 40 + 20 * math.sin(n / 50)) for n in range(600)] + \
+            [b"G4 P0.1\n", b"G0 X0 Y0 Z0\n"]
+    sender.send(b"".join(lines))
+    for line in lines:
+        require(sender.line() == "ok", line)
+    sender.until("Run")
+    sender.send(b"\x91\x91")
+    sender.until("Idle")
+    require(sender.place() == [0.0, 0.0, 0.0], "the program")
+    sender.close()
+    drives.end()
+    require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
+
+
+def holds(drives):
+    """Hold and resume, a reset, a second one, a jog that is cancelled, a sender that goes: on the path, and it goes on from there."""
+    sender = unlocked(drives)
+    sender.send(b"G1 X100 Y50 F5000\n")
+    require(sender.line() == "ok", "no answer")
+    underway(sender, 20.0)
+    sender.send(b"!")
+    sender.until("Hold:0")
+    held = sender.place()
+    require(1.0 < held[0] < 99.0 and abs(held[1] - held[0] / 2) < 0.01, f"held at {held}")
+    sender.send(b"~")
+    sender.until("Idle")
+    require(sender.place() == [100.0, 50.0, 0.0], "not at the end")
+    for stop, beside in ((b"\x18", 0.02), (b"\x19", 0.02), (b"\x18\x18", 10.0)):
+        go(sender, b"G90 G0 X0 Y0")
+        sender.send(b"G1 X100 Y50 F5000\n")
+        require(sender.line() == "ok", "no answer")
+        underway(sender, 20.0)
+        sender.send(stop)
+        await_line(sender, "[MSG:Stop]" if stop == b"\x19" else "Grbl 1.1")
+        place = sender.place()
+        require(1.0 < place[0] < 99.0 and abs(place[1] - place[0] / 2) < beside, f"{stop} at {place}")
+        if len(stop) == 2:
+            require(sender.report().startswith("<Alarm"), "no alarm")
+            sender.text = b""
+            require(say(sender, b"$X") == "ok", "it stays locked")
+        time.sleep(0.2)
+        require(sender.place() == place, "it moves after it stood")
+    go(sender, b"G0 X0 Y0")
+    sender.send(b"$J=X200 F3000\n")
+    require(sender.line() == "ok", "no answer")
+    underway(sender, 20.0)
+    sender.send(b"\x85")
+    sender.until("Idle")
+    place = sender.place()
+    require(1.0 < place[0] < 100.0 and place[1] == 0.0, f"the jog ends at {place}")
+    require(go(sender, b"G91 G0 X1")[0] == round(place[0] + 1.0, 3), "it does not go on from there")
+    sender.send(b"G90 G1 X0 F3000\nX10\n")
+    underway(sender, 2.0)
+    sender.close()
+    time.sleep(1.0)
+    sender = Sender(drives.server)
+    require("Held" in sender.line() + sender.line() + sender.line(), "it does not say that it is held")
+    require(sender.report().startswith("<Hold:0"), "not held")
+    sender.send(b"~")
+    sender.until("Idle")
+    require(sender.place()[:2] == [10.0, 0.0], f"the program goes on to {sender.place()}")
+    go(sender, b"G0 X0")
+    sender.close()
+    drives.end()
+    require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
+
+
+def again(drives):
+    """Where the machine stands is read from the drives, not from a file that says otherwise."""
+    state = os.path.join(drives.folder, "state.json")
+    sender = unlocked(drives, "--state", state)
+    go(sender, b"G0 X12 Y3")
+    sender.close()
+    drives.end(keep=True)
+    kept = json.loads(pathlib.Path(state).read_text())
+    require(kept["position_mm"] == [12.0, 3.0, 0.0], kept)
+    kept["position_mm"] = [50.0, 50.0, 0.0]
+    pathlib.Path(state).write_text(json.dumps(kept))
+    drives.serve("--state", state)
+    sender = Sender(drives.server)
+    require(sender.report().startswith("<Idle") and sender.place() == [12.0, 3.0, 0.0], "it stands elsewhere, or is locked")
+    sender.text = b""
+    go(sender, b"G0 X0 Y0")
+    require(say(sender, b"$SLP") == "ok" and sender.report().startswith("<Sleep"), "it does not sleep")
+    time.sleep(0.3)
+    sender.send(b"\x18")
+    await_line(sender, "[MSG:'$H'")
+    require(say(sender, b"$X") == "ok", "it stays locked")
+    require(go(sender, b"G0 X1") == [1.0, 0.0, 0.0], "it does not wake up")
+    sender.send(b"G1 X50 F3000\n")
+    underway(sender, 2.0)
+    drives.end(signals=1)
+    stood = json.loads(pathlib.Path(state).read_text())["position_mm"]
+    require(2.0 < stood[0] < 49.0, f"the state file says {stood}")
+    require([round(at * STEPS) for at in stood] == drives.counts(), f"the state file says {stood}, the shafts stand at {drives.counts()}")
+
+
+def others(drives):
+    """Who comes second is refused, and told who is first; with its end that is over."""
+    program = pathlib.Path(drives.folder, "line.csv")
+    program.write_text("0,0,0\n5,0,0\n")
+    commands = (["run", str(program), "-m", drives.machine, "--target", "modbus"], ["link", "-m", drives.machine, "--target", "modbus", "--seconds", "0.1"],
+                ["serve", "-m", drives.machine, "--target", "modbus", "--tcp", "127.0.0.1:0"])
+    sender = unlocked(drives)
+    go(sender, b"G0 X2")
+    for command in commands:
+        refused = subprocess.run([drives.tool, *command], capture_output=True, text=True, timeout=20)
+        named = f"splinefeed serve (process {drives.server.process.pid}) uses it; end that first"
+        require(refused.returncode == 1 and named in refused.stderr, f"{command[0]}: {refused.returncode}: {refused.stderr}")
+    require(sender.report().startswith("<Idle"), "it was disturbed")
+    sender.close()
+    drives.server.process.kill()  # it says nothing, and leaves nothing behind
+    drives.server.process.wait()
+    require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
+
+
+CASES = {case.__name__: case for case in (motion, holds, again, others)}
+
+
+def main():
+    tool, names = sys.argv[1], sys.argv[2:] or list(CASES)
+    failed = 0
+    for name in names:
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                with ServedDrives(tool, folder) as drives:
+                    CASES[name](drives)
+                print(f"{name}: passed", flush=True)
+            except (Failed, OSError) as failure:
+                failed += 1
+                print(f"{name}: {type(failure).__name__}: {failure}", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
