@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -DTOOL= -DFOLDER= -P write_pages.cmake: the man pages of the tool and of its commands, compressed without a time as Debian has
-# them, and its completion of bash.
+# them, its completion of bash, and the schemas of its files.
 set(pages ${FOLDER}/man1)
 file(MAKE_DIRECTORY ${pages})
 execute_process(COMMAND ${TOOL} --completion OUTPUT_FILE ${FOLDER}/splinefeed COMMAND_ERROR_IS_FATAL ANY)
@@ -13,4 +13,8 @@ foreach(command splinefeed ${commands})
     endif()
     execute_process(COMMAND ${TOOL} --man ${command} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
     execute_process(COMMAND gzip -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+file(MAKE_DIRECTORY ${FOLDER}/schemas)
+foreach(kind machine profile map events summary)
+    execute_process(COMMAND ${TOOL} schema ${kind} OUTPUT_FILE ${FOLDER}/schemas/${kind}.schema.json COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -12,27 +12,38 @@
 
 namespace splinefeed::host {
 
-void TomlChecker::require_known(const toml::table& table, std::span<const std::string_view> known,
-                                std::string_view where) const {
+namespace {
+
+bool has(const FileTable& table, std::string_view key) {
+    return std::any_of(table.keys.begin(), table.keys.end(), [key](const FileKey& row) { return row.key == key; });
+}
+
+} // namespace
+
+void TomlChecker::require_known(const toml::table& table, const FileTable& keys, std::string_view where) const {
     for (const auto& [key, value] : table) {
         const std::string_view name = key.str();
         const std::uint64_t line = key.source().begin.line;
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
+        if (!has(keys, name)) {
             attempt([&] {
-                throw InputError(
-                    file_, line,
-                    fmt::format("unknown key {} in {}{}", in_quotes(name), where, in_place_of(name, known)));
+                throw InputError(file_, line,
+                                 fmt::format("unknown key {} in {}{}", in_quotes(name),
+                                             where.empty() ? keys.where : where, in_place_of(name, keys)));
             });
         }
     }
 }
 
 // A key of another table is in the wrong place; any other may be mistyped.
-std::string TomlChecker::in_place_of(std::string_view key, std::span<const std::string_view> known) const {
-    for (const KnownTable& other : elsewhere_) {
-        if (std::find(other.keys.begin(), other.keys.end(), key) != other.keys.end()) {
-            return fmt::format("; it belongs below {}", other.where);
+std::string TomlChecker::in_place_of(std::string_view key, const FileTable& keys) const {
+    for (const FileTable* other : elsewhere_) {
+        if (has(*other, key)) {
+            return fmt::format("; it belongs below {}", other->where);
         }
+    }
+    std::vector<std::string_view> known;
+    for (const FileKey& row : keys.keys) {
+        known.push_back(row.key);
     }
     return suggestion(key, known, page_);
 }
@@ -161,15 +172,10 @@ const toml::node& TomlChecker::required(const toml::table& table, std::string_vi
     return *node;
 }
 
-void TomlChecker::take_flag(const toml::table& table, std::string_view key, bool& out) const {
+void TomlChecker::take_ms(const toml::table& table, const FileTable& keys, std::string_view key,
+                          std::uint32_t& out_us) const {
     if (const toml::node* node = table.get(key)) {
-        out = flag(*node, key);
-    }
-}
-
-void TomlChecker::take_ms(const toml::table& table, std::string_view key, double most_ms, std::uint32_t& out_us) const {
-    if (const toml::node* node = table.get(key)) {
-        out_us = microseconds(*node, key, most_ms);
+        out_us = microseconds(*node, key, keys.row(key).high);
     }
 }
 

@@ -2,14 +2,17 @@
 // TomlChecker: reads values from a TOML file and refuses each wrong value with its line.
 #pragma once
 
+#include "host_sim/base/file_key.hpp"
 #include "host_sim/base/input_error.hpp"
 
+#include "splinefeed/base/assertion.hpp"
+
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
 #include <toml++/toml.h>
+#include <type_traits>
 #include <vector>
 
 namespace splinefeed::host {
@@ -49,12 +52,8 @@ public:
         }
     }
 
-    /// Keys of a table that a user may write into another one by mistake.
-    struct KnownTable {
-        std::string_view where;
-        std::span<const std::string_view> keys;
-    };
-    void name_table(KnownTable table) { elsewhere_.push_back(table); }
+    /// Its keys may be written into another table by mistake, and are told to belong there.
+    void name_table(const FileTable& table) { elsewhere_.push_back(&table); }
 
     template <class Node>
     [[noreturn]] void fail(const Node& node, std::string_view what) const {
@@ -62,11 +61,8 @@ public:
     }
     [[noreturn]] void fail_file(std::string_view what) const { throw InputError(file_, 0, what); }
 
-    void require_known(const toml::table& table, std::span<const std::string_view> known, std::string_view where) const;
-    void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
-                       std::string_view where) const {
-        require_known(table, std::span(known.begin(), known.size()), where);
-    }
+    /// Refuses other keys than those. @param where  the table, where it is not that of `keys`
+    void require_known(const toml::table& table, const FileTable& keys, std::string_view where = {}) const;
 
     /// A text that is not empty.
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
@@ -90,25 +86,43 @@ public:
     [[nodiscard]] const toml::node& required(const toml::table& table, std::string_view key, std::string_view where,
                                              std::string_view what) const;
 
-    // Optional values: if the key is not there, `out` stays unchanged.
-    template <class Whole>
-    void take(const toml::table& table, std::string_view key, WholeRange range, Whole& out) const {
+    // Optional values, as the row of the key says: if the key is not there, `out` stays unchanged.
+    template <class Value>
+    void take(const toml::table& table, const FileTable& keys, std::string_view key, Value& out) const {
         if (const toml::node* node = table.get(key)) {
-            out = static_cast<Whole>(whole(*node, key, range));
+            out = value<Value>(*node, keys.row(key));
         }
     }
-    void take_flag(const toml::table& table, std::string_view key, bool& out) const;
-    void take_ms(const toml::table& table, std::string_view key, double most_ms, std::uint32_t& out_us) const;
+    /// Of a choice bool is whether it is the second name; other values are the place of the name in the list.
+    template <class Value>
+    [[nodiscard]] Value value(const toml::node& node, const FileKey& row) const {
+        if (row.kind == KeyKind::choice) {
+            return static_cast<Value>(choice(node, row.key, row.names));
+        }
+        if constexpr (std::is_same_v<Value, bool>) {
+            return flag(node, row.key);
+        } else if constexpr (std::is_floating_point_v<Value>) {
+            return static_cast<Value>(number(node, row.key, {row.low, row.high, row.unit}));
+        } else {
+            return static_cast<Value>(whole(node, row.key, whole_range(row)));
+        }
+    }
+    void take_ms(const toml::table& table, const FileTable& keys, std::string_view key, std::uint32_t& out_us) const;
+
+    [[nodiscard]] static WholeRange whole_range(const FileKey& row) {
+        SPLINEFEED_ASSERT(row.kind == KeyKind::whole);
+        return {static_cast<std::int64_t>(row.low), static_cast<std::int64_t>(row.high)};
+    }
 
 private:
-    [[nodiscard]] std::string in_place_of(std::string_view key, std::span<const std::string_view> known) const;
+    [[nodiscard]] std::string in_place_of(std::string_view key, const FileTable& keys) const;
     /// The value is not `what`. A number or a truth value in quotes is told to be written without them.
     [[noreturn]] void fail_type(const toml::node& node, std::string_view key, std::string_view what) const;
 
     const std::string& file_;
     std::string_view page_;
     std::vector<std::string>* problems_;
-    std::vector<KnownTable> elsewhere_;
+    std::vector<const FileTable*> elsewhere_;
 };
 
 } // namespace splinefeed::host

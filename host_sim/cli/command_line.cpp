@@ -6,6 +6,7 @@
 #include "host_sim/base/option_word.hpp"
 #include "host_sim/cli/command_options.hpp"
 #include "host_sim/cli/help_pages.hpp"
+#include "host_sim/cli/schema_command.hpp"
 #include "host_sim/ports/target_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -86,6 +87,9 @@ std::string explained(const CLI::ParseError& error) {
     }
     if (text.find("MACHINE is required") != std::string_view::npos) {
         return "there is no machine file; name a .toml file, or - for standard input";
+    }
+    if (text.find("KIND is required") != std::string_view::npos) {
+        return fmt::format("there is no kind of file; it must be one of {}", listed(schema_names()));
     }
     if (text.find("FILE is required") != std::string_view::npos) {
         return fmt::format("there is no input; name a {} file, or - for standard input", input_formats(" or ", "."));
@@ -172,8 +176,8 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                            : SummaryKind::text;
 }
 
-constexpr std::array<std::string_view, 9> commands{"run",   "plan", "check",   "curve", "surface",
-                                                   "drive", "link", "machine", "serve"};
+constexpr std::array<std::string_view, 10> commands{"run",   "plan", "check",   "curve",  "surface",
+                                                    "drive", "link", "machine", "schema", "serve"};
 
 // What stands in the place of a command, or before it. @param command  the one that is meant
 [[noreturn]] void refuse_without_command(const std::vector<std::string>& words, std::string_view command) {
@@ -278,6 +282,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                                                      : Command::serve;
         job.link.machine = job.serve.machine = job.run.machine;
         return job;
+    }
+    if (command.get_name() == "schema") {
+        return Answer{json_schema(job.run.path.input)};
     }
     const bool checks_machine = command.get_name() == "machine";
     if (job.run.path.input.empty()) {

@@ -2,6 +2,7 @@
 #include "host_sim/cli/command_options.hpp"
 
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/cli/schema_command.hpp"
 #include "host_sim/drive/drive_faults.hpp"
 #include "host_sim/ports/target_table.hpp"
 
@@ -292,6 +293,12 @@ void add_machine_check(CLI::App& app, Job& job) {
                     "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
 }
 
+void add_schema(CLI::App& app, Job& job) {
+    CLI::App* const schema = app.add_subcommand("schema", "Print the JSON schema of a file, for editors and checkers");
+    schema->add_option("KIND", job.run.path.input, listed(schema_names()) + ": the file that it describes")->required();
+    schema->footer(std::string("Example: splinefeed schema machine > machine.schema.json\n") + exit_statuses);
+}
+
 } // namespace
 
 const char* const exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
@@ -315,6 +322,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_curve(app, job, typed);
     add_surface(app, job, typed);
     add_machine_check(app, job);
+    add_schema(app, job);
     CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);
     drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"

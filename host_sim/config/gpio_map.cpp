@@ -4,11 +4,13 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/gpio_map_keys.hpp"
 #include "host_sim/config/gpio_map_lines.hpp"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <limits>
 
 namespace splinefeed::host {
 
@@ -16,11 +18,7 @@ using namespace hal::gpio;
 
 namespace {
 
-constexpr std::array<std::string_view, 2> level_names{"low", "high"};
-constexpr std::array<std::string_view, 4> bias_names{"as-is", "disabled", "pull-up", "pull-down"};
-constexpr std::array<std::string_view, 5> input_roles{"e-stop", "limit", "home", "drive-fault", "probe"};
 constexpr std::int64_t default_debounce_us = 1000;
-constexpr double least_speed_mm_s = 0.001;
 
 class Reader {
 public:
@@ -32,11 +30,11 @@ public:
     }
 
     LineMap map(const toml::table& root) {
-        check_.require_known(root, {"consumer", "axis", "enable", "brake", "input", "home", "thread"}, "the map");
+        check_.require_known(root, map_table);
         if (const toml::node* consumer = root.get("consumer")) {
-            constexpr std::size_t longest = 31; // the kernel has 32 bytes, with a zero
             map_.consumer = check_.text(*consumer, "consumer");
-            if (map_.consumer.size() > longest) {
+            if (const double longest = map_table.row("consumer").high;
+                static_cast<double>(map_.consumer.size()) > longest) {
                 check_.fail(*consumer, fmt::format("consumer must have at most {} letters", longest));
             }
         }
@@ -72,11 +70,6 @@ private:
         return static_cast<std::size_t>(found - axis_names_.begin());
     }
 
-    [[nodiscard]] bool level(const toml::table& table, std::string_view key, bool otherwise) const {
-        const toml::node* const node = table.get(key);
-        return node != nullptr ? check_.choice(*node, key, level_names) == 1 : otherwise;
-    }
-
     void axes(const toml::table& root) {
         const toml::node* const node = root.get("axis");
         if (node != nullptr && node->is_array_of_tables()) {
@@ -102,7 +95,7 @@ private:
         constexpr std::array<std::array<std::string_view, 2>, 2> keys{{{"step", "direction"}, {"step2", "direction2"}}};
         const StepMotors& motors = machine_.motors[k];
         const std::string where = fmt::format("[axis.{}]", axis_names_[k]);
-        check_.require_known(table, {"step", "direction", "step2", "direction2"}, where);
+        check_.require_known(table, map_axis_table, where);
         for (const std::string_view key : keys[1]) {
             if (const toml::node* second = table.get(key); second != nullptr && motors.count < 2) {
                 check_.fail(*second,
@@ -127,28 +120,28 @@ private:
     }
 
     void enable(const toml::table& table) {
-        check_.require_known(table, {"line", "active", "settle_ms"}, "[enable]");
+        check_.require_known(table, enable_table);
         EnableLine enable;
-        enable.active_level = level(table, "active", true);
+        check_.take(table, enable_table, "active", enable.active_level);
         enable.line = lines_.output(check_.required(table, "line", "[enable]", GpioMapLines::what), "line of [enable]",
                                     !enable.active_level);
-        check_.take(table, "settle_ms", {0, 60000}, enable.settle_ms);
+        check_.take(table, enable_table, "settle_ms", enable.settle_ms);
         map_.enable = enable;
     }
 
     void brake(const toml::table& table) {
-        check_.require_known(table, {"line", "released", "release_ms", "engage_ms"}, "[brake]");
+        check_.require_known(table, brake_table);
         BrakeLine brake;
-        brake.released_level = level(table, "released", true);
+        check_.take(table, brake_table, "released", brake.released_level);
         brake.line = lines_.output(check_.required(table, "line", "[brake]", GpioMapLines::what), "line of [brake]",
                                    !brake.released_level);
-        check_.take(table, "release_ms", {0, 5000}, brake.release_ms);
-        check_.take(table, "engage_ms", {0, 5000}, brake.engage_ms);
+        check_.take(table, brake_table, "release_ms", brake.release_ms);
+        check_.take(table, brake_table, "engage_ms", brake.engage_ms);
         map_.brake = brake;
     }
 
     void input(const toml::table& table) {
-        check_.require_known(table, {"role", "axis", "line", "active", "bias", "debounce_us"}, "[[input]]");
+        check_.require_known(table, map_input_table);
         const toml::node& role = check_.required(table, "role", "[[input]]", listed(input_roles));
         const std::size_t kind = check_.choice(role, "role", input_roles);
         MappedInput input;
@@ -169,14 +162,13 @@ private:
                                               has_axis ? " of this axis" : ""));
             }
         }
-        input.active_level = level(table, "active", true);
+        check_.take(table, map_input_table, "active", input.active_level);
         input.debounce_us = input.role == InputRole::e_stop ? 0 : static_cast<std::uint32_t>(default_debounce_us);
-        check_.take(table, "debounce_us", {0, 100000}, input.debounce_us);
-        const toml::node* const bias = table.get("bias");
-        input.line =
-            lines_.input(check_.required(table, "line", "[[input]]", GpioMapLines::what),
-                         fmt::format("line of the input {}", input_roles[kind]),
-                         bias != nullptr ? static_cast<Bias>(check_.choice(*bias, "bias", bias_names)) : Bias::as_is);
+        check_.take(table, map_input_table, "debounce_us", input.debounce_us);
+        Bias bias = Bias::as_is;
+        check_.take(table, map_input_table, "bias", bias);
+        input.line = lines_.input(check_.required(table, "line", "[[input]]", GpioMapLines::what),
+                                  fmt::format("line of the input {}", input_roles[kind]), bias);
         for (const MappedInput& other : map_.inputs) {
             if (other.line != input.line) {
                 continue;
@@ -196,7 +188,7 @@ private:
     void home(const toml::node& node, std::size_t k) {
         const std::string where = fmt::format("[home.{}]", axis_names_[k]);
         const toml::table& table = check_.table(node, fmt::format("home.{}", axis_names_[k]));
-        check_.require_known(table, {"towards", "seek_mm_s", "latch_mm_s", "pull_off_mm", "position_mm"}, where);
+        check_.require_known(table, home_table, where);
         const bool has_switch = std::any_of(map_.inputs.begin(), map_.inputs.end(), [k](const MappedInput& input) {
             return input.role == InputRole::home && input.axis == static_cast<int>(k);
         });
@@ -204,32 +196,31 @@ private:
             check_.fail(node, fmt::format("{} has no switch; add [[input]] with role = \"home\" and axis = \"{}\"",
                                           where, axis_names_[k]));
         }
-        const auto required = [&](std::string_view key, const NumberRange& range) {
+        const auto required = [&](std::string_view key, double most = std::numeric_limits<double>::infinity()) {
+            const FileKey& row = home_table.row(key);
+            const NumberRange range{row.low, std::min(row.high, most), row.unit};
             const toml::node& given = check_.required(
                 table, key, where, fmt::format("a number from {} to {} {}", range.low, range.high, range.unit));
             return check_.number(given, key, range);
         };
-        constexpr double farthest_mm = 1048576.0;
-        constexpr double most_pull_off_mm = 1000.0;
         HomeSearch home;
-        home.towards_high =
-            check_.choice(check_.required(table, "towards", where, "\"low\" or \"high\""), "towards", level_names) == 1;
-        home.seek_mm_s = required("seek_mm_s", {least_speed_mm_s, machine_.settings.axis[k].max_velocity_mm_s, "mm/s"});
-        home.latch_mm_s = required("latch_mm_s", {least_speed_mm_s, home.seek_mm_s, "mm/s"});
-        home.pull_off_mm = required("pull_off_mm", {least_speed_mm_s, most_pull_off_mm, "mm"});
-        home.position_mm = required("position_mm", {-farthest_mm, farthest_mm, "mm"});
+        home.towards_high = check_.value<bool>(check_.required(table, "towards", where, "\"low\" or \"high\""),
+                                               home_table.row("towards"));
+        home.seek_mm_s = required("seek_mm_s", machine_.settings.axis[k].max_velocity_mm_s);
+        home.latch_mm_s = required("latch_mm_s", home.seek_mm_s);
+        home.pull_off_mm = required("pull_off_mm");
+        home.position_mm = required("position_mm");
         map_.home[k] = home;
     }
 
     void thread(const toml::table& table) {
-        check_.require_known(table, {"priority", "cpu", "spin_us", "tolerated_late_us", "stall_ms"}, "[thread]");
-        constexpr std::int64_t most_cpu = 1023; // of cpu_set_t
-        check_.take(table, "priority", {1, 98}, map_.thread.priority);
-        check_.take(table, "spin_us", {0, 1000}, map_.thread.spin_us);
-        check_.take(table, "tolerated_late_us", {0, 10000}, map_.thread.tolerated_late_us);
-        check_.take(table, "stall_ms", {1, 10000}, map_.thread.stall_ms);
+        check_.require_known(table, thread_table);
+        check_.take(table, thread_table, "priority", map_.thread.priority);
+        check_.take(table, thread_table, "spin_us", map_.thread.spin_us);
+        check_.take(table, thread_table, "tolerated_late_us", map_.thread.tolerated_late_us);
+        check_.take(table, thread_table, "stall_ms", map_.thread.stall_ms);
         if (const toml::node* cpu = table.get("cpu")) {
-            map_.thread.cpu = static_cast<unsigned>(check_.whole(*cpu, "cpu", {0, most_cpu}));
+            map_.thread.cpu = check_.value<unsigned>(*cpu, thread_table.row("cpu"));
         }
     }
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/config/gpio_map_lines.hpp"
 
+#include "host_sim/config/line_keys.hpp"
+
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
 using namespace hal::gpio;
-
-namespace {
-
-constexpr std::size_t longest_name = 31;    // the kernel has 32 bytes, with a zero
-constexpr std::int64_t most_offset = 65535; // the largest chips have about a thousand
-
-} // namespace
 
 std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& node) {
     std::string path = check.text(node, "chip");
@@ -25,15 +20,15 @@ std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& 
 
 std::string GpioMapLines::name(const toml::node& node, std::string_view key) const {
     std::string name = check_.text(node, key);
-    if (name.size() > longest_name) {
-        check_.fail(
-            node, fmt::format("{} is {}; names of lines have at most {} letters", key, in_quotes(name), longest_name));
+    if (const double longest = line_table.row("name").high; static_cast<double>(name.size()) > longest) {
+        check_.fail(node,
+                    fmt::format("{} is {}; names of lines have at most {} letters", key, in_quotes(name), longest));
     }
     return name;
 }
 
 unsigned GpioMapLines::offset(const toml::node& node, std::string_view key) const {
-    return static_cast<unsigned>(check_.whole(node, key, {0, most_offset}));
+    return static_cast<unsigned>(check_.whole(node, key, TomlChecker::whole_range(line_table.row("offset"))));
 }
 
 GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_view key) const {
@@ -61,7 +56,7 @@ GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::stri
     if (table == nullptr) {
         check_.fail(node, fmt::format("{} must be {}", key, what));
     }
-    check_.require_known(*table, {"chip", "offset", "name"}, key);
+    check_.require_known(*table, line_table, key);
     if (const toml::node* given = table->get("chip")) {
         wanted.chip = chip_path(check_, *given);
     }

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/config/io_modules.hpp"
 
+#include "host_sim/config/machine_keys.hpp"
+
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
-namespace {
-
-constexpr std::int64_t most_bit = 65535;
-constexpr WholeRange response_times_ms{10, 500};
-
-} // namespace
-
 IoModules::IoModules(const TomlChecker& check, const toml::table& root, std::vector<IoModule>& modules)
     : check_(check), modules_(modules) {
-    for (const toml::table* const table : check_.tables(root, "module")) {
-        IoModule module = read(*table);
-        require_own_place(*table, module);
-        modules_.push_back(std::move(module));
-    }
+    check_.attempt([&] {
+        for (const toml::table* const table : check_.tables(root, "module")) {
+            IoModule module;
+            module.name = (*table)["name"].value_or(std::string()); // what names a wrong module is not wrong itself
+            check_.attempt([&] {
+                module = read(*table);
+                require_own_place(*table, module);
+            });
+            modules_.push_back(std::move(module));
+        }
+    });
 }
 
 IoModule IoModules::read(const toml::table& table) const {
-    check_.require_known(table, {"name", "address", "response_timeout_ms"}, "[[module]]");
+    check_.require_known(table, module_table);
     IoModule module;
     module.name = check_.text(check_.required(table, "name", "[[module]]", "a name"), "name");
     const toml::node& address = check_.required(table, "address", "[[module]]", "modbus-tcp://HOST:PORT?unit=1");
@@ -31,7 +32,7 @@ IoModule IoModules::read(const toml::table& table) const {
     } catch (const AddressError& error) {
         check_.fail(address, fmt::format("address: {}", error.what()));
     }
-    check_.take(table, "response_timeout_ms", response_times_ms, module.answer_ms);
+    check_.take(table, module_table, "response_timeout_ms", module.answer_ms);
     return module;
 }
 
@@ -87,7 +88,7 @@ std::size_t IoModules::module_of(const toml::table& table, const std::string& wh
 int IoModules::address(const toml::table& table, std::string_view key, const std::string& where) const {
     const toml::node& node =
         check_.required(table, key, where, fmt::format("the number of the {} in its module, from 0", key));
-    return static_cast<int>(check_.whole(node, key, {0, most_bit}));
+    return static_cast<int>(check_.whole(node, key, TomlChecker::whole_range(coil_key)));
 }
 
 SwitchedCoil IoModules::coil(const toml::table& table, const std::string& where, bool on_level) {

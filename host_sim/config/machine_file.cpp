@@ -6,14 +6,14 @@
 #include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
 #include "host_sim/config/drive_address.hpp"
+#include "host_sim/config/machine_keys.hpp"
 #include "host_sim/config/program_lines_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
 #include "host_sim/config/toml_setting.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <initializer_list>
 #include <toml++/toml.h>
 #include <vector>
 
@@ -21,52 +21,21 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::string_view axis_letters = "xyzabc";
 constexpr double counter_limit = 2147483647.0;
-
-constexpr std::array<std::string_view, 12> machine_keys{"name",    "sample_period_us", "drives_at_end", "path",
-                                                        "step",    "spindle",          "lines",         "module",
-                                                        "coolant", "output",           "input",         "axis"};
-
-/// Keys of a table: those of `numbers`, and others.
-template <class Numbers>
-std::vector<std::string_view> keys_with(const Numbers& numbers, std::initializer_list<std::string_view> others) {
-    std::vector<std::string_view> keys;
-    for (const auto& number : numbers) {
-        keys.emplace_back(number.key);
-    }
-    keys.insert(keys.end(), others);
-    return keys;
-}
-
-/// Those of [path]: its own, and those that other files state.
-std::vector<std::string_view> path_keys() {
-    std::vector<std::string_view> keys = keys_with(path_numbers, {});
-    for (const PathToleranceKey& tolerance : path_tolerance_keys) {
-        keys.emplace_back(tolerance.key);
-    }
-    return keys;
-}
-
-constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 
 /// Reads one file.
 class MachineReader {
 public:
     /// @param problems  gets what is wrong, and the reading goes on; null: the first problem ends it
     explicit MachineReader(const std::string& file, std::vector<std::string>* problems = nullptr)
-        : file_(file), path_keys_(path_keys()),
-          step_keys_(keys_with(step_times, {"engine", "tick_us", "step_on_edge"})),
-          axis_keys_(keys_with(axis_numbers, {"name", "kind", "travel_mm", "invert", "motors", "invert_step",
-                                              "invert_direction", "drive", "standstill_window_mm"})),
-          check_(file, "docs/reference/files.md", problems) {
-        check_.name_table({"[[axis]]", axis_keys_});
-        check_.name_table({"[path]", path_keys_});
-        check_.name_table({"[step]", step_keys_});
+        : file_(file), check_(file, "docs/reference/files.md", problems) {
+        for (const FileTable* table : {&axis_table, &path_table, &step_line_table}) {
+            check_.name_table(*table);
+        }
     }
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        check_.require_known(root, machine_keys, "the machine file");
+        check_.require_known(root, machine_table);
         MachineDescription machine;
         machine.file = file_;
         check_.attempt([&] {
@@ -74,10 +43,7 @@ public:
                 machine.name = check_.text(*node, "name");
             }
         });
-        check_.attempt([&] {
-            check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
-                        machine.settings.sample_period_us);
-        });
+        check_.attempt([&] { check_.take(root, machine_table, sample_period.key, machine.settings.sample_period_us); });
         check_.attempt([&] { drives_at_end(root, machine.drives_on_at_end); });
         check_.attempt([&] { path(root, machine.settings, machine.tolerances); });
         check_.attempt([&] { step(root, machine.step); });
@@ -101,13 +67,19 @@ private:
         return value;
     }
 
+    /// Which of the two names of the row it is.
+    [[nodiscard]] bool is_first(const toml::node& node, const FileKey& row) const {
+        const std::string name = check_.text(node, row.key);
+        if (name != row.names[0] && name != row.names[1]) {
+            check_.fail(node, fmt::format("{} is {}; it must be '{}' or '{}'", row.key, in_quotes(name), row.names[0],
+                                          row.names[1]));
+        }
+        return name == row.names[0];
+    }
+
     void drives_at_end(const toml::table& root, std::optional<bool>& on) const {
         if (const toml::node* node = root.get("drives_at_end")) {
-            const std::string end = check_.text(*node, "drives_at_end");
-            if (end != "on" && end != "off") {
-                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
-            }
-            on = end == "on";
+            on = is_first(*node, machine_table.row("drives_at_end"));
         }
     }
 
@@ -133,7 +105,7 @@ private:
             check_.fail_file("there is no [path]; write [path] and below it max_feed_mm_s = 100");
         }
         const toml::table& table = check_.table(*node, "path");
-        check_.require_known(table, path_keys_, "[path]");
+        check_.require_known(table, path_table);
         numbers(table, "[path]", path_numbers, settings);
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
             check_.attempt([&] {
@@ -150,15 +122,12 @@ private:
             return;
         }
         const toml::table& table = check_.table(*node, "step");
-        check_.require_known(table, step_keys_, "[step]");
+        check_.require_known(table, step_line_table);
         const toml::node* engine = table.get("engine");
-        const std::string kind = engine != nullptr ? check_.text(*engine, "engine") : "intervals";
-        if (kind != "intervals" && kind != "fixed-rate") {
-            check_.fail(*engine, fmt::format("engine is {}; it must be 'intervals' or 'fixed-rate'", in_quotes(kind)));
-        }
-        settings.tick_us = kind == "fixed-rate" ? 10.0 : 0.0;
+        const bool intervals = engine == nullptr || is_first(*engine, step_line_table.row("engine"));
+        settings.tick_us = intervals ? 0.0 : 10.0;
         if (const toml::node* tick = table.get("tick_us")) {
-            if (kind != "fixed-rate") {
+            if (intervals) {
                 check_.fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
             }
             settings.tick_us = check_.finite(*tick, "tick_us");
@@ -174,22 +143,19 @@ private:
                 }
             });
         }
-        if (const toml::node* on_edge = table.get("step_on_edge")) {
-            settings.step_on_edge = check_.flag(*on_edge, "step_on_edge");
-        }
+        check_.attempt([&] { check_.take(table, step_line_table, "step_on_edge", settings.step_on_edge); });
     }
 
     void motors(const toml::table& table, StepMotors& motors) const {
         if (const toml::node* count = table.get("motors")) {
+            const WholeRange range = TomlChecker::whole_range(axis_table.row("motors"));
             const auto value = count->value_exact<std::int64_t>();
-            if (!value || *value < 1 || *value > 2) {
-                check_.fail(*count, "motors must be 1 or 2");
+            if (!value || *value < range.low || *value > range.high) {
+                check_.fail(*count, fmt::format("motors must be {} or {}", range.low, range.high));
             }
             motors.count = static_cast<int>(*value);
         }
-        if (const toml::node* invert = table.get("invert_step")) {
-            motors.invert_step = check_.flag(*invert, "invert_step");
-        }
+        check_.take(table, axis_table, "invert_step", motors.invert_step);
         const toml::node* invert = table.get("invert_direction");
         if (invert == nullptr) {
             return;
@@ -235,7 +201,7 @@ private:
     }
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
-        check_.require_known(table, axis_keys_, "[[axis]]");
+        check_.require_known(table, axis_table);
         const toml::node* name = table.get("name");
         if (name == nullptr) {
             check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
@@ -244,7 +210,8 @@ private:
         if (letter.size() == 1 && letter[0] >= 'A' && letter[0] <= 'Z') {
             letter[0] = static_cast<char>(letter[0] - 'A' + 'a'); // as in the header of waypoints
         }
-        if (letter.size() != 1 || axis_letters.find(letter) == std::string_view::npos) {
+        if (std::find(std::begin(axis_name_letters), std::end(axis_name_letters), letter) ==
+            std::end(axis_name_letters)) {
             check_.fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
         }
         for (std::size_t j = 0; j < k; ++j) {
@@ -258,13 +225,14 @@ private:
         AxisSettings& axis = machine.settings.axis[k];
         check_.attempt([&] {
             if (const toml::node* kind = table.get("kind")) {
-                axis.rotary = is_rotary(*kind);
+                axis.rotary = !is_first(*kind, axis_table.row("kind"));
             }
         });
         numbers(table, where, axis_numbers, axis);
         check_.attempt([&] {
             if (const toml::node* window = table.get("standstill_window_mm")) {
-                machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
+                const FileKey& row = axis_table.row("standstill_window_mm");
+                machine.standstill_window_mm[k] = number(*window, row.key, {row.low, row.high, row.unit});
             }
         });
         check_.attempt([&] {
@@ -274,11 +242,7 @@ private:
             travel_end(table, where, machine.travel[k], axis);
         });
         check_.attempt([&] { motors(table, machine.motors[k]); });
-        check_.attempt([&] {
-            if (const toml::node* invert = table.get("invert")) {
-                machine.inverted[k] = check_.flag(*invert, "invert");
-            }
-        });
+        check_.attempt([&] { check_.take(table, axis_table, "invert", machine.inverted[k]); });
         for (bool& direction : machine.motors[k].invert_direction) {
             direction = direction != machine.inverted[k];
         }
@@ -295,14 +259,6 @@ private:
                 check_.fail(*drive, fmt::format("drive: {}", error.what()));
             }
         }
-    }
-
-    [[nodiscard]] bool is_rotary(const toml::node& node) const {
-        const std::string kind = check_.text(node, "kind");
-        if (kind != "linear" && kind != "rotary") {
-            check_.fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
-        }
-        return kind == "rotary";
     }
 
     void travel_end(const toml::table& table, std::string_view where, const std::optional<Travel>& travel,
@@ -348,9 +304,6 @@ private:
     }
 
     const std::string& file_;
-    std::vector<std::string_view> path_keys_;
-    std::vector<std::string_view> step_keys_;
-    std::vector<std::string_view> axis_keys_;
     TomlChecker check_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sections of a profile that say where numbers are: [link], [[field]], [[group]].
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 #include "splinefeed/hal/modbus/link/link_address.hpp"
 
@@ -14,34 +15,11 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr std::array<std::string_view, field_roles> field_role_names{"none",
-                                                                     "control",
-                                                                     "status",
-                                                                     "mode",
-                                                                     "mode_display",
-                                                                     "target_position",
-                                                                     "target_velocity",
-                                                                     "profile_velocity",
-                                                                     "profile_acceleration",
-                                                                     "profile_deceleration",
-                                                                     "actual_position",
-                                                                     "actual_velocity",
-                                                                     "following_error",
-                                                                     "following_error_window",
-                                                                     "fault_code",
-                                                                     "watchdog"};
 constexpr std::array<PhysicalUnit, field_roles> role_units{
     PhysicalUnit::number,        PhysicalUnit::number,        PhysicalUnit::number,       PhysicalUnit::number,
     PhysicalUnit::number,        PhysicalUnit::counts,        PhysicalUnit::counts_per_s, PhysicalUnit::counts_per_s,
     PhysicalUnit::counts_per_s2, PhysicalUnit::counts_per_s2, PhysicalUnit::counts,       PhysicalUnit::counts_per_s,
     PhysicalUnit::counts,        PhysicalUnit::counts,        PhysicalUnit::number,       PhysicalUnit::ms};
-constexpr std::array<std::string_view, 5> unit_names{"number", "counts", "counts/s", "counts/s^2", "ms"};
-constexpr std::array<std::string_view, 2> order_names{"high_first", "low_first"};
-constexpr std::array<std::string_view, 3> access_names{"read_write", "read", "write"};
-constexpr std::array<std::string_view, 2> use_names{"target", "status"};
-constexpr std::array<std::string_view, 2> wire_names{"rtu", "tcp"};
-constexpr std::array<std::string_view, 3> parity_names{"N", "E", "O"};
-constexpr double longest_ms = 60000.0;
 
 void read_wires(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
     const toml::node& node = check.required(table, "wires", "[link]", R"(a list of "rtu" and "tcp")");
@@ -83,7 +61,7 @@ void read_unit(const TomlChecker& check, const toml::table& table, LinkSettings&
         link.unit = single_unit;
         return;
     }
-    check.take(table, "unit", {1, most_unit}, link.unit);
+    link.unit = static_cast<int>(check.whole(*node, "unit", {1, most_unit}));
 }
 
 void read_exchanges(const TomlChecker& check, const toml::node& node, LinkSettings& link) {
@@ -93,8 +71,10 @@ void read_exchanges(const TomlChecker& check, const toml::node& node, LinkSettin
         if (pair == nullptr || pair->size() != 2) {
             check.fail(entry, fmt::format("exchange_ms must be {}", form));
         }
-        link.exchanges.push_back({static_cast<int>(check.whole((*pair)[0], "the baud rate", {1200, 4000000})),
-                                  check.microseconds((*pair)[1], "the time of an exchange", longest_ms)});
+        link.exchanges.push_back(
+            {static_cast<int>(
+                 check.whole((*pair)[0], "the baud rate", TomlChecker::whole_range(link_table.row("baud")))),
+             check.microseconds((*pair)[1], "the time of an exchange", link_table.row("response_timeout_ms").high)});
     }
 }
 
@@ -123,7 +103,7 @@ void read_scale(const TomlChecker& check, const toml::table& table, RegisterFiel
             check.fail(*node, "the first number of scale is 0; it must be another one");
         }
     }
-    check.take_flag(table, "inverse", field.inverse);
+    check.take(table, field_table, "inverse", field.inverse);
     field.lowest = lowest_raw(field);
     field.highest = highest_raw(field);
     if (const toml::node* node = table.get("clamp")) {
@@ -150,10 +130,10 @@ void read_name(const TomlChecker& check, const toml::table& table, const DrivePr
     }
     const toml::node& node = role != nullptr ? *role : *name;
     if (role != nullptr) {
-        const std::size_t index = check.choice(node, "role", std::span(field_role_names).subspan(1)) + 1;
-        field.role = static_cast<FieldRole>(index);
+        const auto index = check.value<std::size_t>(node, field_table.row("role"));
+        field.role = static_cast<FieldRole>(index + 1);
         field.name = field_role_names[index];
-        field.unit = role_units[index];
+        field.unit = role_units[index + 1];
     } else {
         field.name = check.text(node, "name");
         if (std::find(field_role_names.begin(), field_role_names.end(), field.name) != field_role_names.end()) {
@@ -183,10 +163,7 @@ void refuse_overlap(const TomlChecker& check, const toml::table& table, const Dr
 }
 
 RegisterField read_field(const TomlChecker& check, const toml::table& table, const DriveProfile& profile) {
-    check.require_known(table,
-                        {"role", "name", "address", "width", "signed", "word_order", "byte_order", "scale", "inverse",
-                         "unit", "clamp", "access", "flash", "value"},
-                        "[[field]]");
+    check.require_known(table, field_table);
     RegisterField field;
     read_name(check, table, profile, field);
     const std::string where = fmt::format("field {}", in_quotes(field.name));
@@ -201,28 +178,24 @@ RegisterField read_field(const TomlChecker& check, const toml::table& table, con
     const std::int64_t last = 65536 - static_cast<std::int64_t>(field.registers());
     const toml::node& address = check.required(table, "address", where, "the first register");
     field.address = static_cast<std::uint16_t>(check.whole(address, "address", {base, base + last}) - base);
-    check.take_flag(table, "signed", field.is_signed);
-    if (const toml::node* node = table.get("word_order")) {
-        field.word_order = static_cast<Significance>(check.choice(*node, "word_order", order_names));
-    }
-    if (const toml::node* node = table.get("byte_order")) {
-        field.byte_order = static_cast<Significance>(check.choice(*node, "byte_order", order_names));
-    }
+    check.take(table, field_table, "signed", field.is_signed);
+    check.take(table, field_table, "word_order", field.word_order);
+    check.take(table, field_table, "byte_order", field.byte_order);
     if (const toml::node* node = table.get("unit")) {
-        field.unit = static_cast<PhysicalUnit>(check.choice(*node, "unit", unit_names));
+        field.unit = check.value<PhysicalUnit>(*node, field_table.row("unit"));
         const PhysicalUnit expected = role_units[static_cast<std::size_t>(field.role)];
         if (field.role != FieldRole::none && field.unit != expected) {
             check.fail(*node, fmt::format("unit of role \"{}\" must be \"{}\"; the scale leads from it to the register",
                                           field.name, unit_names[static_cast<std::size_t>(expected)]));
         }
     }
-    if (const toml::node* node = table.get("access")) {
-        field.access = static_cast<FieldAccess>(check.choice(*node, "access", access_names));
-    }
+    check.take(table, field_table, "access", field.access);
     read_scale(check, table, field);
-    check.take_flag(table, "flash", field.flash);
+    check.take(table, field_table, "flash", field.flash);
     field.value = std::clamp(std::int64_t{0}, field.lowest, field.highest);
-    check.take(table, "value", {field.lowest, field.highest}, field.value);
+    if (const toml::node* node = table.get("value")) {
+        field.value = check.whole(*node, "value", {field.lowest, field.highest});
+    }
     refuse_overlap(check, table, profile, field);
     return field;
 }
@@ -232,32 +205,28 @@ RegisterField read_field(const TomlChecker& check, const toml::table& table, con
 void read_link(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
     const toml::table& table =
         check.table(check.required(root, "link", "the profile", "a table: [link] and its keys below"), "link");
-    check.require_known(table,
-                        {"wires", "unit", "baud", "parity", "stop_bits", "silence_before_ms", "silence_after_ms",
-                         "turnaround_ms", "response_timeout_ms", "retries", "functions", "most_read_registers",
-                         "most_write_registers", "address_base", "reads_zero_until_written", "exchange_ms"},
-                        "[link]");
+    check.require_known(table, link_table);
     LinkSettings& link = profile.link;
     read_wires(check, table, link);
     read_functions(check, table, link);
     read_unit(check, table, link);
-    check.take(table, "baud", {1200, 4000000}, link.baud);
+    check.take(table, link_table, "baud", link.baud);
     if (const toml::node* node = table.get("parity")) {
-        link.parity = parity_names[check.choice(*node, "parity", parity_names)].front();
+        link.parity = parity_names[check.value<std::size_t>(*node, link_table.row("parity"))].front();
     }
-    check.take(table, "stop_bits", {1, 2}, link.stop_bits);
-    check.take_ms(table, "silence_before_ms", 1000.0, link.silence_before_us);
-    check.take_ms(table, "silence_after_ms", 1000.0, link.silence_after_us);
-    check.take_ms(table, "turnaround_ms", 1000.0, link.turnaround_us);
-    check.take_ms(table, "response_timeout_ms", longest_ms, link.response_timeout_us);
+    check.take(table, link_table, "stop_bits", link.stop_bits);
+    check.take_ms(table, link_table, "silence_before_ms", link.silence_before_us);
+    check.take_ms(table, link_table, "silence_after_ms", link.silence_after_us);
+    check.take_ms(table, link_table, "turnaround_ms", link.turnaround_us);
+    check.take_ms(table, link_table, "response_timeout_ms", link.response_timeout_us);
     if (link.response_timeout_us == 0) {
         check.fail(*table.get("response_timeout_ms"), "response_timeout_ms must be more than 0");
     }
-    check.take(table, "retries", {0, 100}, link.retries);
-    check.take(table, "most_read_registers", {1, 125}, link.most_read_registers);
-    check.take(table, "most_write_registers", {1, 123}, link.most_write_registers);
-    check.take(table, "address_base", {0, 1}, link.address_base);
-    check.take_flag(table, "reads_zero_until_written", link.reads_zero_until_written);
+    check.take(table, link_table, "retries", link.retries);
+    check.take(table, link_table, "most_read_registers", link.most_read_registers);
+    check.take(table, link_table, "most_write_registers", link.most_write_registers);
+    check.take(table, link_table, "address_base", link.address_base);
+    check.take(table, link_table, "reads_zero_until_written", link.reads_zero_until_written);
     if (const toml::node* node = table.get("exchange_ms")) {
         read_exchanges(check, *node, link);
     }
@@ -292,10 +261,10 @@ void read_fields(const TomlChecker& check, const toml::table& root, DriveProfile
 
 void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
     for (const toml::table* table : check.tables(root, "group")) {
-        check.require_known(*table, {"use", "fields"}, "[[group]]");
+        check.require_known(*table, group_table);
         FieldGroup group;
-        group.use = static_cast<GroupUse>(
-            check.choice(check.required(*table, "use", "[[group]]", R"("target" or "status")"), "use", use_names));
+        group.use = check.value<GroupUse>(check.required(*table, "use", "[[group]]", R"("target" or "status")"),
+                                          group_table.row("use"));
         if (profile.group_for(group.use) != nullptr) {
             check.fail(*table, fmt::format("there are two groups with use = \"{}\"; write one",
                                            use_names[static_cast<std::size_t>(group.use)]));

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 
 #include <array>
@@ -13,8 +14,6 @@ namespace splinefeed::host {
 using namespace hal::modbus;
 
 namespace {
-
-constexpr std::array<std::string_view, 4> stream_names{"pvt", "cyclic", "blocks", "speed"};
 
 std::string name_of_profile(const TomlChecker& check, const toml::table& root) {
     const toml::node& node = check.required(root, "name", "the profile", "a text like \"maker-mode\"");
@@ -101,10 +100,7 @@ void require_complete(const TomlChecker& check, const DriveProfile& profile) {
 
 DriveProfile profile_of(const toml::table& root, const std::string& file) {
     const TomlChecker check(file, "docs/reference/profiles.md");
-    check.require_known(root,
-                        {"name", "drive", "sources", "not_verified", "stream", "axes", "states", "link", "field",
-                         "group", "state", "command", "motion", "watchdog", "init", "identity"},
-                        "the profile");
+    check.require_known(root, profile_table);
     DriveProfile profile;
     profile.name = name_of_profile(check, root);
     profile.drive = check.text(check.required(root, "drive", "the profile", "a text: makes and models"), "drive");
@@ -117,7 +113,7 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
     profile.stream = static_cast<StreamWay>(
         check.choice(check.required(root, "stream", "the profile", "\"pvt\", \"cyclic\", \"blocks\" or \"speed\""),
                      "stream", stream_names));
-    check.take(root, "axes", {1, 6}, profile.axes);
+    check.take(root, profile_table, "axes", profile.axes);
     if (profile.axes > 1 && profile.stream != StreamWay::pvt) {
         check.fail(*root.get("axes"), "axes beyond 1 are for stream = \"pvt\" alone; leave axes out");
     }

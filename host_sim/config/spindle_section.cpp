@@ -2,6 +2,7 @@
 #include "host_sim/config/spindle_section.hpp"
 
 #include "host_sim/config/drive_table.hpp"
+#include "host_sim/config/machine_keys.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
 
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
@@ -43,34 +44,33 @@ SpindleDescription::Vfd read_vfd(const TomlChecker& check, const toml::node& nod
 } // namespace
 
 std::optional<SpindleDescription> read_spindle(const TomlChecker& check, const toml::table& root) {
-    constexpr NumberRange speeds{0.001, 1e6, "1/min"};
-    constexpr NumberRange ratios{0.001, 1e4, "1/min per Hz"};
-    constexpr NumberRange ramps{0.0, 600.0, "s"};
-    constexpr NumberRange timeouts{0.1, 600.0, "s"};
     const toml::node* const node = root.get("spindle");
     if (node == nullptr) {
         return std::nullopt;
     }
     const toml::table& table = check.table(*node, "spindle");
-    check.require_known(table,
-                        {"max_rpm", "min_rpm", "ramp_s", "vfd", "rpm_per_hz", "at_speed_timeout_s", "enable", "reverse",
-                         "at_speed", "spin_up_s", "spin_down_s"},
-                        "[spindle]");
+    check.require_known(table, spindle_table);
     SpindleDescription spindle;
-    const auto take = [&](std::string_view key, const NumberRange& range, double& out) {
-        if (const toml::node* const given = table.get(key)) {
-            out = check.number(*given, key, range);
+    check.attempt([&] {
+        static_cast<void>(
+            check.required(table, "max_rpm", "[spindle]", "the fastest speed that a program may ask for"));
+        check.take(table, spindle_table, "max_rpm", spindle.max_rpm);
+    });
+    check.attempt([&] {
+        if (const toml::node* const least = table.get("min_rpm")) {
+            const FileKey& row = spindle_table.row("min_rpm");
+            const double most = spindle.max_rpm > 0.0 ? spindle.max_rpm : row.high; // max_rpm itself may be wrong
+            spindle.min_rpm = check.number(*least, row.key, {row.low, most, row.unit});
         }
-    };
-    static_cast<void>(check.required(table, "max_rpm", "[spindle]", "the fastest speed that a program may ask for"));
-    take("max_rpm", speeds, spindle.max_rpm);
-    take("min_rpm", {0.0, spindle.max_rpm, "1/min"}, spindle.min_rpm);
-    take("rpm_per_hz", ratios, spindle.rpm_per_hz);
-    take("ramp_s", ramps, spindle.ramp_s);
-    take("at_speed_timeout_s", timeouts, spindle.at_speed_timeout_s);
-    if (const toml::node* const vfd = table.get("vfd")) {
-        spindle.vfd = read_vfd(check, *vfd, spindle.max_rpm / spindle.rpm_per_hz);
-    }
+    });
+    check.attempt([&] { check.take(table, spindle_table, "rpm_per_hz", spindle.rpm_per_hz); });
+    check.attempt([&] { check.take(table, spindle_table, "ramp_s", spindle.ramp_s); });
+    check.attempt([&] { check.take(table, spindle_table, "at_speed_timeout_s", spindle.at_speed_timeout_s); });
+    check.attempt([&] {
+        if (const toml::node* const vfd = table.get("vfd")) {
+            spindle.vfd = read_vfd(check, *vfd, spindle.max_rpm / spindle.rpm_per_hz);
+        }
+    });
     return spindle;
 }
 

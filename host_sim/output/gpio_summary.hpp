@@ -53,6 +53,8 @@ struct GpioSummary {
 
 /// The keys are the names of the members, with `_s` or `_mm` if they have it.
 [[nodiscard]] nlohmann::ordered_json to_json(const GpioSummary& gpio);
+/// Its JSON schema.
+[[nodiscard]] nlohmann::ordered_json gpio_schema();
 /// One line about the edges, and one per change.
 [[nodiscard]] std::string to_text(const GpioSummary& gpio);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/link_summary.hpp"
 
+#include "host_sim/output/written_key.hpp"
+
 #include <array>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace splinefeed::host {
@@ -28,30 +29,81 @@ constexpr std::array<Loss, 7> losses{{{"timeouts", "without an answer in time", 
                                       {"exceptions", "exceptions", &LinkCounts::exceptions},
                                       {"resent", "blocks sent again", &LinkCounts::resent}}};
 
+Json drive_of(const LinkSummary::Drive& drive, bool targets) {
+    Json object{{"address", drive.address},
+                {"exchanges", drive.counts.exchanges},
+                {targets ? "targets" : "segments", drive.counts.segments}};
+    for (const Loss& loss : losses) {
+        object[loss.key] = drive.counts.*loss.count;
+    }
+    return object;
+}
+
+Json drive_schema() {
+    Json properties{{"address", schema_of(text_row("address", "Of the drive."))}};
+    Json required{"address", "exchanges"};
+    const auto add = [&properties](const char* key, std::string_view sentence) {
+        properties[key] = schema_of(count_row(key, sentence));
+    };
+    add("exchanges", "Requests with their answers.");
+    add("segments", "Segments that it got.");
+    add("targets", "Of a drive that does not interpolate: targets that it got.");
+    for (const Loss& loss : losses) {
+        add(loss.key, fmt::format("How often: {}.", loss.text));
+        required.push_back(loss.key);
+    }
+    return {{"type", "object"},
+            {"properties", std::move(properties)},
+            {"required", std::move(required)},
+            {"additionalProperties", false}};
+}
+
+constexpr WrittenKey<LinkSummary> summary_link_keys[] = {
+    {inside_row("drives", "Each drive."),
+     [](const LinkSummary& link) {
+         Json drives = Json::array();
+         for (const LinkSummary::Drive& drive : link.drives) {
+             drives.push_back(drive_of(drive, link.target_period_us > 0));
+         }
+         return drives;
+     },
+     [] {
+         return list_schema(drive_schema());
+     }},
+    {count_row("resumes", "How often all drives stopped together and went on."),
+     [](const LinkSummary& link) {
+         return Json(link.resumes);
+     }},
+    {number_row("clocks_known_to_s", "s", "Largest difference of the start times of two drives."),
+     [](const LinkSummary& link) {
+         return Json(link.clocks_s);
+     }},
+    {number_row("bus_time_s", "s", "Processor time of the buses."),
+     [](const LinkSummary& link) {
+         return Json(link.bus_s);
+     }},
+    {not_always(number_row("target_period_s", "s", "Between two targets.")),
+     [](const LinkSummary& link) {
+         return link.target_period_us > 0 ? Json(link.target_period_us * 1e-6) : left_out();
+     }},
+    {not_always(number_row("between_targets_mm", "mm", "Largest path error between two targets.")),
+     [](const LinkSummary& link) {
+         return link.target_period_us > 0 ? Json(link.between_targets_mm) : left_out();
+     }},
+    {not_always(number_row("latest_target_s", "s", "How late the latest target came.")),
+     [](const LinkSummary& link) {
+         return link.target_period_us > 0 ? Json(static_cast<double>(link.late_us) * 1e-6) : left_out();
+     }},
+};
+
 } // namespace
 
 Json to_json(const LinkSummary& link) {
-    Json drives = Json::array();
-    const bool targets = link.target_period_us > 0;
-    for (const LinkSummary::Drive& drive : link.drives) {
-        Json object{{"address", drive.address},
-                    {"exchanges", drive.counts.exchanges},
-                    {targets ? "targets" : "segments", drive.counts.segments}};
-        for (const Loss& loss : losses) {
-            object[loss.key] = drive.counts.*loss.count;
-        }
-        drives.push_back(std::move(object));
-    }
-    Json object{{"drives", std::move(drives)},
-                {"resumes", link.resumes},
-                {"clocks_known_to_s", link.clocks_s},
-                {"bus_time_s", link.bus_s}};
-    if (targets) {
-        object["target_period_s"] = link.target_period_us * 1e-6;
-        object["between_targets_mm"] = link.between_targets_mm;
-        object["latest_target_s"] = static_cast<double>(link.late_us) * 1e-6;
-    }
-    return object;
+    return written(link, summary_link_keys);
+}
+
+Json link_schema() {
+    return written_schema(summary_link_keys);
 }
 
 std::string to_text(const LinkSummary& link) {

@@ -30,6 +30,8 @@ struct LinkSummary {
 /// "bus_time_s":}`; with targets it has "targets" instead of "segments", and also "target_period_s",
 /// "between_targets_mm" and "latest_target_s".
 [[nodiscard]] nlohmann::ordered_json to_json(const LinkSummary& link);
+/// Its JSON schema.
+[[nodiscard]] nlohmann::ordered_json link_schema();
 
 /// One line per drive; losses by name, if there were any.
 [[nodiscard]] std::string to_text(const LinkSummary& link);

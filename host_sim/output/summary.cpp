@@ -5,7 +5,6 @@
 #include "host_sim/curve/curve_arguments.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +12,6 @@
 #include <string_view>
 
 namespace splinefeed::host {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -132,47 +129,6 @@ void write_help(Lines out, const Summary& summary) {
     }
 }
 
-Json help_json(const Summary& summary) {
-    Json out = Json::array();
-    for (const RaisedLimit& raised : summary.what_would_help->limits) {
-        out.push_back({{"limit", raised.limit},
-                       {"set", raised.setting.empty() ? Json(nullptr) : Json(raised.setting)},
-                       {"cycle_time_s", raised.cycle_time_s},
-                       {"gain", raised.gain}});
-    }
-    return out;
-}
-
-Json share_json(const Summary& summary) {
-    if (!summary.limit_share) {
-        return nullptr;
-    }
-    const LimitShares& shares = *summary.limit_share;
-    Json object;
-    for (const char* limit : {"velocity", "acceleration", "jerk"}) {
-        object[limit] = Json::object();
-    }
-    const std::vector<std::string> names = axis_names(summary);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        object["velocity"][names[k]] = shares.axis[k].velocity;
-        object["acceleration"][names[k]] = shares.axis[k].acceleration;
-        if (shares.axis[k].jerk) {
-            object["jerk"][names[k]] = *shares.axis[k].jerk;
-        }
-    }
-    object["feed"] = shares.feed;
-    object["centripetal"] = shares.centripetal.value_or(0.0);
-    object["chord"] = shares.chord.value_or(0.0);
-    object["none"] = shares.none;
-    return object;
-}
-
-Json place_json(const ToleranceSummary::Place& place) {
-    return {{"distance", place.distance},
-            {"at", place.number > 0 ? Json(place.number) : Json()},
-            {"line", place.line > 0 ? Json(place.line) : Json()}};
-}
-
 std::string at_place(const ToleranceSummary::Place& place) {
     return place.name.empty() ? std::string() : ", at " + place.name;
 }
@@ -183,23 +139,6 @@ std::string less_or_more(double time_s, double of_s) {
     const double saved = of_s > 0.0 ? 100.0 * (1.0 - time_s / of_s) : 0.0;
     return std::fabs(saved) < shown ? "as long"
                                     : fmt::format("{:.1f} % {}", std::fabs(saved), saved > 0.0 ? "less" : "more");
-}
-
-Json tolerance_json(const ToleranceSummary& tolerance) {
-    Json object;
-    object["kept"] = tolerance.excess.empty();
-    object["deviation_mm"] = place_json(tolerance.deviation);
-    if (tolerance.rotary_deviation) {
-        object["deviation_deg"] = place_json(*tolerance.rotary_deviation);
-    }
-    object["blended"] = tolerance.blended;
-    object["stopped"] = tolerance.stopped;
-    object["through"] = tolerance.through;
-    object["chains"] = tolerance.chains;
-    object["elements"] = tolerance.elements;
-    object["pieces"] = tolerance.pieces;
-    object["exact_stop_time_s"] = tolerance.exact_stop_s;
-    return object;
 }
 
 void write_tolerance(Lines out, const Summary& summary) {
@@ -220,65 +159,6 @@ void write_tolerance(Lines out, const Summary& summary) {
 }
 
 } // namespace
-
-std::string to_json(const Summary& summary) {
-    Json velocity = Json::object();
-    Json acceleration = Json::object();
-    Json jerk = Json::object();
-    for (const Summary::AxisUse& use : summary.limit_use) {
-        velocity[use.axis] = use.velocity;
-        acceleration[use.axis] = use.acceleration;
-        if (use.jerk) {
-            jerk[use.axis] = *use.jerk;
-        }
-    }
-    Json object;
-    object["cycle_time_s"] = summary.cycle_time_s;
-    object["length_mm"] = summary.length_mm;
-    object["waypoints"] = summary.waypoints;
-    object["curve_segments"] = summary.curve_segments;
-    object["feed_segments"] = summary.feed_segments;
-    object["scalar"] = summary.scalar;
-    object["jerk_scalar"] = summary.jerk_scalar.empty() ? Json(nullptr) : Json(summary.jerk_scalar);
-    object["curve"] = summary.curve;
-    object["max_speed_mm_s"] = summary.max_speed_mm_s;
-    object["limit_use"]["velocity"] = velocity;
-    object["limit_use"]["acceleration"] = acceleration;
-    object["limit_use"]["jerk"] = jerk;
-    object["waypoint_error_mm"] = summary.waypoint_error_mm ? Json(*summary.waypoint_error_mm) : Json(nullptr);
-    object["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
-    object["planning_time_s"] = summary.planning_time_s;
-    object["memory_bytes"]["curve"] = summary.memory_bytes.curve;
-    object["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
-    object["memory_bytes"]["stream"] = summary.memory_bytes.stream;
-    object["stopped"] = summary.stopped;
-    object["window_limited"] = summary.window_limited ? Json(*summary.window_limited) : Json(nullptr);
-    object["stops"] = summary.stops;
-    object["smoothing_bound_mm"] = summary.smoothing_bound_mm;
-    object["peak_rss_bytes"] = summary.peak_rss_bytes;
-    object["limit_share"] = share_json(summary);
-    object["what_would_help"] = summary.what_would_help ? help_json(summary) : Json(nullptr);
-    if (summary.what_would_help && summary.what_would_help->moves > 0) {
-        object["what_would_help_moves"] = summary.what_would_help->moves;
-    }
-    if (summary.events + summary.events_not_reached > 0) {
-        object["events"] = summary.events;
-        object["events_not_reached"] = summary.events_not_reached;
-    }
-    if (summary.tolerance) {
-        object["tolerance"] = tolerance_json(*summary.tolerance);
-    }
-    if (!summary.program.empty()) {
-        object["program"] = to_json(summary.program);
-    }
-    if (summary.link) {
-        object["link"] = to_json(*summary.link);
-    }
-    if (summary.gpio) {
-        object["gpio"] = to_json(*summary.gpio);
-    }
-    return object.dump(2) + "\n";
-}
 
 std::string to_text(const Summary& summary) {
     std::string text;

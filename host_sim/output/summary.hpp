@@ -98,6 +98,9 @@ struct Summary {
 /// waypoint_error_mm, optimum_time_s and limit_share are null if there is no value.
 [[nodiscard]] std::string to_json(const Summary& summary);
 
+/// The JSON schema of that object.
+[[nodiscard]] nlohmann::ordered_json summary_schema();
+
 /// A table with units, then a sentence for everything unusual. Ends with a line end.
 [[nodiscard]] std::string to_text(const Summary& summary);
 

@@ -7,7 +7,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/trimmed_text.hpp"
 
-#include <array>
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -15,10 +15,6 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 24;
-constexpr double longest_s = 86400.0;
-constexpr std::array<std::string_view, 4> words{"hold", "resume", "abort", "override"};
-constexpr std::array<Operation, 4> operations{Operation::hold, Operation::resume, Operation::abort,
-                                              Operation::override_feed};
 
 std::vector<std::string_view> fields_of(std::string_view line) {
     std::vector<std::string_view> fields;
@@ -32,9 +28,9 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     }
 }
 
-/// A number in the range; false otherwise.
-bool take_number(std::string_view text, double most, double& out) {
-    return read_number(text, out) == NumberText::number && out >= 0.0 && out <= most;
+/// A number in the range of the row; false otherwise.
+bool take_number(std::string_view text, const FileKey& row, double& out) {
+    return read_number(text, out) == NumberText::number && out >= row.low && out <= row.high;
 }
 
 OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::string& path, std::uint64_t line,
@@ -44,8 +40,9 @@ OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::s
     };
     OperatorEvent event;
     event.line = line;
-    if (!take_number(fields[0], longest_s, event.time_s)) {
-        refuse(fmt::format("{}: the time must be a number of seconds, 0 to 86400", in_quotes(fields[0])));
+    if (const FileKey& row = operator_event_table.row("t"); !take_number(fields[0], row, event.time_s)) {
+        refuse(
+            fmt::format("{}: the time must be a number of seconds, {} to {}", in_quotes(fields[0]), row.low, row.high));
     }
     if (event.time_s < before_s) {
         refuse(fmt::format("{} s is before the event above, at {} s; put the rows in order of time", event.time_s,
@@ -54,14 +51,11 @@ OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::s
     if (fields.size() < 2 || fields[1].empty()) {
         refuse("the row has a time only; it must be like 0.5,hold or 0.5,override,0.8");
     }
-    std::size_t i = 0;
-    while (i < words.size() && fields[1] != words[i]) {
-        ++i;
+    const auto* const name = std::find(std::begin(operation_names), std::end(operation_names), fields[1]);
+    if (name == std::end(operation_names)) {
+        refuse(fmt::format("there is no event {}{}", in_quotes(fields[1]), suggestion(fields[1], operation_names)));
     }
-    if (i == words.size()) {
-        refuse(fmt::format("there is no event {}{}", in_quotes(fields[1]), suggestion(fields[1], words)));
-    }
-    event.operation = operations[i];
+    event.operation = static_cast<Operation>(name - operation_names);
     const bool has_value = fields.size() > 2 && !fields[2].empty();
     if (fields.size() > 3) {
         refuse(fmt::format("the row has {} fields; it must be like 0.5,hold or 0.5,override,0.8", fields.size()));
@@ -69,9 +63,10 @@ OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::s
     if (event.operation != Operation::override_feed && has_value) {
         refuse(fmt::format("{} takes no value; leave {} out", fields[1], in_quotes(fields[2])));
     }
-    if (event.operation == Operation::override_feed && !(has_value && take_number(fields[2], 2.0, event.value))) {
-        refuse(fmt::format("{}: the value of an override must be a number from 0 to 2",
-                           in_quotes(has_value ? fields[2] : "")));
+    const FileKey& row = operator_event_table.row("value");
+    if (event.operation == Operation::override_feed && !(has_value && take_number(fields[2], row, event.value))) {
+        refuse(fmt::format("{}: the value of an override must be a number from {} to {}",
+                           in_quotes(has_value ? fields[2] : ""), row.low, row.high));
     }
     return event;
 }

@@ -70,3 +70,24 @@ TEST_CASE("Coils and inputs are bits of the modules that the machine file names"
     CHECK((coil.table == BitTable::coils && coil.active_level));
     CHECK(lines.input(2) == nullptr);
 }
+
+TEST_CASE("All that is wrong with spindle, lines and modules is said at once, and nothing that only follows from it") {
+    const std::string text = with("[lines]\nchip = 'gpiochip0'\n"                                        // 4
+                                  "[spindle]\nmax_rpm = 0\nmin_rpm = 6000\nramp_s = -1\nturns = 3\n"     // 5 to 9
+                                  "enable = { line = 1, on = 'low' }\nreverse = { line = 1.5 }\n"        // 10, 11
+                                  "at_speed = { line = 3, bias = 'up' }\nspin_down_s = 'long'\n"         // 12, 13
+                                  "[[module]]\nname = 'io'\naddress = 'modbus-tcp://h?units=3'\n"        // 16
+                                  "[[module]]\naddress = 'modbus-tcp://h'\nresponse_timeout_ms = 9\n"    // 17
+                                  "[coolant]\nmist = { module = 'io', coil = -1 }\nflood = 3\n"          // 21, 22
+                                  "[[output]]\nnumber = 64\nline = 4\n"                                  // 24
+                                  "[[output]]\nnumber = 1\nline = 4\n[[output]]\nnumber = 1\nline = 5\n" // 30
+                                  "[[output]]\nnumber = 2\nmodule = 'none'\ncoil = 1\n"                  // 34
+                                  "[[input]]\nnumber = 1\nline = 4\nactive = 'up'");                     // 39
+    const std::vector<std::string> problems = machine_problems(text, "m");
+    std::string found;
+    for (const std::string& problem : problems) {
+        found += problem.substr(0, problem.find(':', 2)) + " ";
+    }
+    CAPTURE(problems);
+    CHECK(found == "m:9 m:6 m:8 m:4 m:16 m:17 m:21 m:22 m:10 m:11 m:12 m:5 m:13 m:24 m:30 m:34 m:39 ");
+}

@@ -47,6 +47,7 @@ splinefeed run part.csv -m \$examples/three_axis.toml --report part.html --quiet
 test -s part.html
 splinefeed check \$examples/bracket.ngc -m \$examples/three_axis.toml >/dev/null
 man -w splinefeed-run >/dev/null
+splinefeed schema machine | cmp - /usr/share/splinefeed/schemas/machine.schema.json
 source /usr/share/bash-completion/completions/splinefeed
 python3 -W error -c 'import splinefeed; assert splinefeed.plan([[0, 0], [10, 5], [20, 0], [30, 5], [40, 0]]).time == 0.602'
 python3 \$examples/python/feed_study.py | grep '4.281 s'

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/file_key.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::host {
+
+const FileKey& FileTable::row(std::string_view key) const {
+    const auto found = std::find_if(keys.begin(), keys.end(), [key](const FileKey& one) { return one.key == key; });
+    SPLINEFEED_ASSERT(found != keys.end());
+    return *found;
+}
+
+} // namespace splinefeed::host
