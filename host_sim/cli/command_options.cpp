@@ -282,14 +282,24 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
                     exit_statuses);
 }
 
-void add_machine_check(CLI::App& app, Job& job) {
-    CLI::App* const machine = app.add_subcommand("machine", "Say what is wrong with a machine file");
-    machine->add_option("MACHINE", job.run.path.input, "a machine file (.toml); - reads standard input")->required();
+void add_machine_command(CLI::App& app, Job& job) {
+    CLI::App* const machine =
+        app.add_subcommand("machine", "Say what is wrong with a machine file, or make one of the settings of grbl");
+    machine
+        ->add_option("MACHINE", job.run.path.input,
+                     "a machine file (.toml), or for --from-grbl a listing; - reads standard input")
+        ->required();
     machine
         ->add_flag_callback(
             "--check", [] {}, "say everything that is wrong, not only the first (the default)")
         ->disable_flag_override();
+    machine
+        ->add_flag("--from-grbl", job.machine.from_grbl,
+                   "make a machine file of a text with the answer of grbl, grblHAL or FluidNC to $$")
+        ->disable_flag_override();
+    machine->add_option("-o,--output", job.machine.output, "MACHINE.toml, for --from-grbl (default: standard output)");
     machine->footer("Example: splinefeed machine --check three_axis.toml\n"
+                    "         splinefeed machine --from-grbl settings.txt -o router.toml\n"
                     "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
 }
 
@@ -321,7 +331,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_check(app, job, typed);
     add_curve(app, job, typed);
     add_surface(app, job, typed);
-    add_machine_check(app, job);
+    add_machine_command(app, job);
     add_schema(app, job);
     CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);

@@ -16,7 +16,7 @@ int carry_out(const Job& job) {
     case Command::surface: return run_surface(job.run.path.input, job.surface, job.run.path.scalar);
     case Command::drive: return run_drive(job.drive);
     case Command::link: return report_link(job.link);
-    case Command::machine: return check_machine(job.run.path.input);
+    case Command::machine: return run_machine(job.run.path.input, job.machine);
     case Command::serve: return run_serve(job.serve);
     }
     return 1;

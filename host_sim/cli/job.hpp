@@ -19,6 +19,7 @@ struct Job {
     SurfaceArguments surface;
     DriveArguments drive;
     LinkArguments link;
+    MachineArguments machine;
     ServeArguments serve;
 };
 

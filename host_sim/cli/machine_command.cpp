@@ -2,10 +2,13 @@
 #include "host_sim/cli/machine_command.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/output_file.hpp"
 #include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/serve/grbl_machine.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -27,7 +30,19 @@ std::vector<std::string> problems_of(const std::string& text, const std::string&
     return problems;
 }
 
-} // namespace
+void write_machine_of_grbl(const std::string& listing, const std::string& output) {
+    const GrblMachine machine = machine_of_grbl(read_text_file(listing, largest_machine_file), listing);
+    if (const std::vector<std::string> problems = problems_of(machine.text, {}); !problems.empty()) {
+        throw InputError(listing, 0, fmt::format("its numbers are no machine together: {}", problems.front()));
+    }
+    OutputFile file(output.empty() ? "-" : output);
+    file.append(machine.text);
+    file.commit();
+    if (machine.left_out > 0) {
+        tell("splinefeed: note: numbers that are no keys of a machine file: {}; they are comments at its end\n",
+             machine.left_out);
+    }
+}
 
 int check_machine(const std::string& file) {
     const std::string text = read_text_file(file, largest_machine_file);
@@ -41,6 +56,19 @@ int check_machine(const std::string& file) {
         fmt::format("{}: nothing is wrong; its axes are {}\n", printable(file),
                     fmt::join(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes, ", ")),
         "the answer");
+    return 0;
+}
+
+} // namespace
+
+int run_machine(const std::string& file, const MachineArguments& arguments) {
+    if (!arguments.from_grbl) {
+        if (!arguments.output.empty()) {
+            throw UsageError("-o is of --from-grbl; a check writes no file: leave it out");
+        }
+        return check_machine(file);
+    }
+    write_machine_of_grbl(file, arguments.output);
     return 0;
 }
 

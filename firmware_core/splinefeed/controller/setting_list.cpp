@@ -41,7 +41,7 @@ struct SettingTable {
          [](const C& c, const S&) {
              return whole(c.step_us);
          }},
-        {1, 0, "drives_on_at_end",
+        {1, 0, "drives_at_end",
          [](const C& c, const S&) {
              return whole(c.drives_stay_on ? 255 : 25);
          }},
@@ -93,19 +93,19 @@ struct SettingTable {
          [](const C& c, const S&) {
              return whole(c.has_limits ? 1 : 0);
          }},
-        {22, 0, "[axis.home]",
+        {22, 0, "[home.x]",
          [](const C& c, const S&) {
              return whole(c.homes ? 1 : 0);
          }},
-        {23, 0, "towards of [axis.home]",
+        {23, 0, "towards of [home.x]",
          [](const C& c, const S&) {
              return bits(c, [&](unsigned k) { return c.wiring[k].homes_low; });
          }},
-        {24, 3, "latch_mm_s of [axis.home]",
+        {24, 3, "latch_mm_s of [home.x]",
          [](const C& c, const S&) {
              return c.home_latch_mm_min;
          }},
-        {25, 3, "seek_mm_s of [axis.home]",
+        {25, 3, "seek_mm_s of [home.x]",
          [](const C& c, const S&) {
              return c.home_seek_mm_min;
          }},
@@ -113,7 +113,7 @@ struct SettingTable {
          [](const C& c, const S&) {
              return whole(c.debounce_ms);
          }},
-        {27, 3, "pull_off_mm of [axis.home]",
+        {27, 3, "pull_off_mm of [home.x]",
          [](const C& c, const S&) {
              return c.pull_off_mm;
          }},
