@@ -31,9 +31,10 @@ enum class StartWay : std::uint8_t {
 
 /// What a run needs from its target in addition to motion.
 struct RunOptions {
-    bool reset = false; ///< faults of the drives are reset first
-    bool home = false;  ///< the axes find their references before the run moves
-    bool probe = false; ///< the run ends, held on the path, when the probe touches
+    bool reset = false;                   ///< faults of the drives are reset first
+    bool home = false;                    ///< the axes find their references before the run moves
+    std::uint32_t home_axes = UINT32_MAX; ///< which, by bits: RunTarget::homes_with
+    bool probe = false;                   ///< the run ends, held on the path, when the probe touches
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
     bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;
@@ -73,6 +74,8 @@ public:
     [[nodiscard]] virtual bool serves() const noexcept { return false; }
     /// For a machine that is served. What prepare() does from now on, of home and reset.
     virtual void set_ready(const RunOptions& /*options*/) {}
+    /// The axes that search together with these, by bits: a drive homes all of its own.
+    [[nodiscard]] virtual std::uint32_t homes_with(std::uint32_t axes) const { return axes; }
     /// Whether halt() of the port stops the drives sooner than the plan could brake; else it asks for that: holds().
     [[nodiscard]] virtual bool halts() const noexcept { return false; }
     /// With less motion than this in the port it may slow down by itself, unless that is the end. [us]

@@ -70,7 +70,8 @@ int run_serve(const ServeArguments& arguments) {
     if (arguments.target != "sim") {
         tool = make_target(arguments.target, machine, told);
     }
-    const ControllerSettings settings = serve_settings(machine);
+    ControllerSettings settings = serve_settings(machine);
+    settings.probes = arguments.target == "sim"; // so far drives have none
     ServedMotion motion(machine.machine, settings);
     if (tool == nullptr) {
         tool = std::make_unique<SimulatedTool>(machine.machine, motion.segments_per_sample(), told,

@@ -84,7 +84,8 @@ private:
     void end_motion(const MotionEnd& end);
     void finish_motion();
     void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
-    void look_where(bool at_once);
+    bool look_where(bool at_once);
+    void take_place(const FeedSegment& segment);
     [[nodiscard]] FeedSegment standing() const;
     void close();
     void reopen();

@@ -86,11 +86,14 @@ void ServedTarget::step() {
         if (const std::optional<MotionEnd> end = feed_.look(orders.stops)) {
             end_motion(*end);
         } else {
-            look_where(false);
+            static_cast<void>(look_where(false));
         }
         return;
     }
     feed_.tend_outputs();
+    if (phase_ == Phase::closed && feed_.waits()) {
+        reopen();
+    }
     if (phase_ == Phase::open && feed_.waits()) {
         begin_first();
     } else if (feed_.waits()) {
@@ -198,24 +201,40 @@ void ServedTarget::reopen() {
     }
 }
 
-void ServedTarget::find_references(std::uint32_t /*axes*/) {
+// The axes that search stand at 0 behind it, the others where they are.
+void ServedTarget::find_references(std::uint32_t axes) {
     if (phase_ == Phase::ready || phase_ == Phase::closed) {
         reopen();
     }
+    FeedSegment found = standing();
     if (phase_ == Phase::open) {
-        {
-            const std::lock_guard lock(mutex_);
-            known_.mm = {};
-        }
         options_.home = true;
-        make_ready(standing());
+        options_.home_axes = target_->homes_with(axes);
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            found.start[k] = (options_.home_axes >> k & 1U) != 0 ? 0 : found.start[k];
+        }
+        found.end = found.start;
+        make_ready(found);
         options_.home = false;
     }
+    const bool homed = phase_ == Phase::ready;
+    if (homed) {
+        take_place(found);
+    } else {
+        phase_ = Phase::closed; // where it stands is not known any more
+    }
     const std::lock_guard lock(mutex_);
-    const bool found = phase_ == Phase::ready;
-    known_.homing = found ? HomingPhase::done : HomingPhase::failed;
+    known_.homing = homed ? HomingPhase::done : HomingPhase::failed;
     known_.alarm = Alarm::none; // the controller says that it was not found
-    phase_ = found ? phase_ : Phase::closed;
+}
+
+// The end of a segment, to the last digit.
+void ServedTarget::take_place(const FeedSegment& segment) {
+    const std::lock_guard lock(mutex_);
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        known_.mm[k] = static_cast<double>(segment.end[k]) /
+                       (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
+    }
 }
 
 void ServedTarget::end_motion(const MotionEnd& end) {
@@ -231,18 +250,17 @@ void ServedTarget::end_motion(const MotionEnd& end) {
     }
     FeedSegment next{.duration_ticks = segment_ticks_, .start = last.end, .end = last.end};
     if (end.kind == MotionEnd::Kind::halted) {
-        look_where(true);
+        constexpr int looks = 100; // a drive's answer may be late
+        for (int look = 0; look < looks && !look_where(true); ++look) {
+            system_clock().sleep_us(10 * poll_every_us);
+        }
         if (!known_.places) {
             fail(end.why, Alarm::stopped_in_motion);
             return;
         }
         next = standing();
     } else {
-        const std::lock_guard lock(mutex_);
-        for (const unsigned k : indices(machine_->settings.axes)) {
-            known_.mm[k] = static_cast<double>(last.end[k]) /
-                           (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
-        }
+        take_place(last);
     }
     if (end.kind == MotionEnd::Kind::complete && !end.why.empty()) { // a switch held the plan
         fail(end.why, Alarm::limit_switch);
@@ -258,7 +276,7 @@ void ServedTarget::end_motion(const MotionEnd& end) {
 
 void ServedTarget::fail(const std::string& sentence, Alarm alarm) {
     if (phase_ == Phase::ready) {
-        look_where(true);
+        static_cast<void>(look_where(true));
     }
     feed_.drop();
     feed_.begin(0);
@@ -279,30 +297,32 @@ void ServedTarget::finish_motion() {
 }
 
 // While it stands, its place is that to the last digit where the motion ended.
-void ServedTarget::look_where(bool at_once) {
+bool ServedTarget::look_where(bool at_once) {
     const std::uint64_t now_us = system_clock().now_us();
     if (!at_once && now_us < looked_us_ + look_every_us) {
-        return;
+        return true;
     }
     {
         const std::lock_guard lock(mutex_);
         if (submitted_ == finished_ && !at_once) {
-            return;
+            return true;
         }
     }
     const std::vector<RunTarget::AxisPlace> places = target_->places();
     const std::lock_guard lock(mutex_);
     double way_sq = 0.0;
-    known_.places = known_.places && !places.empty();
+    bool all = !places.empty();
     for (const RunTarget::AxisPlace& at : places) {
         const double mm = at.mm.value_or(known_.mm[at.axis]);
         way_sq += (mm - known_.mm[at.axis]) * (mm - known_.mm[at.axis]);
         known_.mm[at.axis] = mm;
-        known_.places = known_.places && at.known().has_value();
+        all = all && at.known().has_value();
     }
     known_.speed_mm_s =
         std::sqrt(way_sq) * us_per_s / static_cast<double>(std::max<std::uint64_t>(1, now_us - looked_us_));
     looked_us_ = now_us;
+    known_.places = at_once ? all : known_.places;
+    return all;
 }
 
 } // namespace splinefeed::host

@@ -176,6 +176,8 @@ private:
             machine.home_found = value != 0.0;
         } else if (what == "spindle") {
             machine.spindle_ms = static_cast<std::uint32_t>(value);
+        } else if (what == "probes") {
+            tool_.settings.probes = value != 0.0;
         } else if (what == "halts") {
             machine.halts_ms = static_cast<std::uint32_t>(value);
         } else {

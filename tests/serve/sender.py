@@ -42,8 +42,8 @@ class ServedDrives:
     """Three simulated Modbus drives, and a server of the machine that they move: machine.toml with their addresses."""
 
     def __init__(self, tool, folder, keys="unit=1", profile="", extra=()):
-        self.tool, self.folder, self.server = tool, folder, None
-        self.drives = [Drive(tool, folder, k, 1, profile=profile, extra=extra) for k in range(3)]
+        self.tool, self.folder, self.server = os.path.abspath(tool), folder, None
+        self.drives = [Drive(self.tool, folder, k, 1, profile=profile, extra=extra) for k in range(3)]
         text = (HERE / "machine.toml").read_text()
         for name, drive in zip("xyz", self.drives):
             text = text.replace(f'name = "{name}"\n', f'name = "{name}"\ndrive = "{drive.tcp_address(keys)}"\n')

@@ -8,12 +8,15 @@ import json
 import math
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 
 from sender import Failed, Sender, ServedDrives
+from case_runs import pymodbus_missing
+from spindle_runs import Vfd
 
 STEPS = 320.0
 
@@ -171,6 +174,93 @@ def again(drives):
     require([round(at * STEPS) for at in stood] == drives.counts(), f"the state file says {stood}, the shafts stand at {drives.counts()}")
 
 
+def home(drives):
+    """$H finds all references, $HX one; a reset ends the search; without a probe nothing is searched for by one."""
+    sender = unlocked(drives)
+    require(say(sender, b"$H") == "ok" and sender.place() == [0.0, 0.0, 0.0], "$H")  # the shafts stood at other places
+    require(go(sender, b"G0 X5 Y7 Z-3") == [5.0, 7.0, -3.0], "it does not move behind $H")
+    require(say(sender, b"$HX") == "ok" and sender.place() == [0.0, 7.0, -3.0], f"$HX: {sender.place()}")
+    require(say(sender, b"G38.2 Z-50 F100") == "error:20" and sender.place()[2] == -3.0, "a probe")
+    require(go(sender, b"G0 X150") == [150.0, 7.0, -3.0], "it does not move behind $HX")
+    sender.send(b"$H\n")
+    time.sleep(0.4)
+    sender.send(b"\x18")
+    await_line(sender, "ALARM:6")
+    await_line(sender, "Grbl 1.1")
+    sender.until("Alarm")
+    require(say(sender, b"$H") == "ok" and sender.until("Idle") and sender.place() == [0.0, 0.0, 0.0], "$H behind that")
+    go(sender, b"G0 X1 Y1")
+    sender.close()
+    drives.end()
+    require(drives.counts() == [320, 320, 0], f"the shafts stand at {drives.counts()}")
+
+
+def faults(drives):
+    """What a drive reports, and a drive that is lost, are alarms; a reset resets the fault, and the place is read anew."""
+    sender = unlocked(drives)
+    go(sender, b"G1 X20 F3000")
+    sender.send(b"G0 X120\n")  # faster than this drive's shaft may turn
+    require(sender.line() == "ok", "no answer")
+    await_line(sender, "ALARM:17")
+    told = sender.line()
+    require("code 3" in told and "axis x" in told, f"it says {told}")
+    require(say(sender, b"$X") == "error:9", "it is unlocked while the fault lasts")
+    sender.send(b"\x18")
+    await_line(sender, "[MSG:'$H'")
+    place = sender.place()
+    require(20.0 < place[0] < 60.0, f"it stands at {place}")
+    require(say(sender, b"$X") == "ok", "it stays locked")
+    require(go(sender, b"G1 X10 F3000") == [10.0, 0.0, 0.0], "it does not move behind the fault")
+    drives.drives[1].process.send_signal(signal.SIGSTOP)
+    sender.send(b"G1 X80 F1000\n")
+    await_line(sender, "ALARM:17")
+    told = sender.line()
+    require("drive of y" in told, f"it says {told}")
+    drives.drives[1].process.send_signal(signal.SIGCONT)
+    sender.send(b"\x18")
+    await_line(sender, "[MSG:'$H'")
+    require(say(sender, b"$X") == "ok" and go(sender, b"G1 X0 F3000") == [0.0, 0.0, 0.0], "it does not move with the drive that came back")
+    sender.close()
+    drives.end()
+    require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
+
+
+def spindle(drives):
+    """M3 is answered when the spindle has its speed; a reset and the server's end stop it; M0 and M6 wait for the operator."""
+    if why := pymodbus_missing():
+        print(f"spindle is left out: {why}")
+        return
+    vfd = Vfd(drives.folder, 2000.0)
+    try:
+        text = pathlib.Path(drives.machine).read_text().replace("[spindle]\n", f'[spindle]\nvfd = "{vfd.address}?profile=vfd-delta-ms300"\n')
+        pathlib.Path(drives.machine).write_text(text)
+        sender = unlocked(drives)
+        begun = time.monotonic()
+        require(say(sender, b"M3 S9000") == "ok" and 0.05 < time.monotonic() - begun < 5.0, "M3")
+        require(abs(vfd.rows()[-1][1] - 150.0) < 3.0, f"it turns at {vfd.rows()[-1]}")
+        sender.send(b"G1 X50 F3000\n")
+        underway(sender, 5.0)
+        sender.send(b"\x18")
+        await_line(sender, "Grbl 1.1")
+        time.sleep(0.5)
+        require(vfd.rows()[-1][1] < 1.0, "it turns behind a reset")
+        require(say(sender, b"M3 S6000") == "ok" and say(sender, b"M0") == "ok", "M3, M0")
+        require(sender.report().startswith("<Hold:0"), "M0 does not hold")
+        sender.send(b"~G0 X0\nM6 T1\n")
+        sender.until("Tool")
+        sender.send(b"~")
+        sender.until("Idle")
+        sender.send(b"M3 S6000\n")
+        time.sleep(0.5)
+        sender.close()
+        drives.end()
+        time.sleep(0.3)
+        require(vfd.rows()[-1][1] < 1.0, "it turns behind the end")
+    finally:
+        vfd.process.kill()
+        vfd.process.wait()
+
+
 def others(drives):
     """Who comes second is refused, and told who is first; with its end that is over."""
     program = pathlib.Path(drives.folder, "line.csv")
@@ -190,7 +280,8 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, others)}
+CASES = {case.__name__: case for case in (motion, holds, again, home, faults, spindle, others)}
+DRIVES = {"home": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 
 def main():
@@ -199,7 +290,7 @@ def main():
     for name in names:
         with tempfile.TemporaryDirectory() as folder:
             try:
-                with ServedDrives(tool, folder) as drives:
+                with ServedDrives(tool, folder, **DRIVES.get(name, {})) as drives:
                     CASES[name](drives)
                 print(f"{name}: passed", flush=True)
             except (Failed, OSError) as failure:

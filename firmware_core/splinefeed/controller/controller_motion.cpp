@@ -216,6 +216,15 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
 void Controller::begin_probe() noexcept {
     const ProbeCondition probe = motion_->waiting().probe;
     touched_ = false;
+    if (!settings_->probes) {
+        motion_->restart();
+        task_ = Task::none;
+        say("The machine has no probe");
+        refusal_ = LineError::unsupported_word;
+        refused_lines_ = settings_->holds_on_error ? lines_.lines() : 0;
+        refuse(refusal_);
+        return;
+    }
     if (((reading_.inputs & InputBits::probe) != 0) != probe.away) {
         motion_->restart();
         end_task();

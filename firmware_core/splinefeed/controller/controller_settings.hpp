@@ -34,6 +34,7 @@ struct ControllerSettings {
     std::string_view name;   ///< of the machine
     std::string_view source; ///< where its numbers stand, for messages
     bool homes = false;      ///< $H is possible
+    bool probes = true;      ///< it has a probe
     bool has_limits = false; ///< limit switches
     bool drives_stay_on = true;
     bool holds_on_error = true; ///< a refused line holds the motion

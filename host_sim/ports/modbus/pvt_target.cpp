@@ -86,6 +86,17 @@ std::vector<RunTarget::AxisPlace> PvtTarget::standing() {
     return out;
 }
 
+std::uint32_t PvtTarget::homes_with(std::uint32_t axes) const {
+    std::uint32_t out = 0;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        for (const PvtAxis& axis : port_.wiring(i).axes) {
+            const bool homes = axis.machine_axis >= 0 && port_.wiring(i).moves_one_of(axes);
+            out |= homes ? 1U << static_cast<unsigned>(axis.machine_axis) : 0U;
+        }
+    }
+    return out;
+}
+
 // As its drive reports it, in the axis's direction.
 int PvtTarget::counts_of(std::size_t drive, std::size_t drive_axis) const {
     const int counts = port_.report(drive).status.position[drive_axis];

@@ -214,7 +214,7 @@ std::optional<DriveFailure> ModbusPort::make_ready() {
     failure = failure ? failure : setup.command(PvtCommand::begin, stay_placed ? settings_.first_sequence : unplaced);
     if (!failure && settings_.home) {
         moves_ = true;
-        failure = setup.home(settings_.interrupted);
+        failure = setup.home(settings_.home_axes, settings_.interrupted);
     }
     failure = failure ? failure : setup.command(PvtCommand::preset_position);
     if (!failure && !stay_placed) { // now they are

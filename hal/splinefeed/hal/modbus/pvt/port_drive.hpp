@@ -6,6 +6,7 @@
 #include "splinefeed/hal/modbus/pvt/port_times.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace splinefeed::hal::modbus {
@@ -19,6 +20,14 @@ struct DriveWiring {
     std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: no check; empty: the drive keeps its setting
     bool both_in_one = true;                         ///< it supports function 23
     std::vector<std::string> axis_names{};           ///< for PortFailure
+
+    /// @param machine_axes  by bits
+    [[nodiscard]] bool moves_one_of(std::uint32_t machine_axes) const noexcept {
+        return machine_axes == UINT32_MAX || std::any_of(axes.begin(), axes.end(), [&](const PvtAxis& axis) {
+                   return axis.machine_axis >= 0 &&
+                          (machine_axes >> static_cast<unsigned>(axis.machine_axis) & 1U) != 0;
+               });
+    }
 };
 
 class PortDrive {

@@ -48,9 +48,12 @@ bool PvtSetup::await(std::uint64_t bound_us, const Done& done) {
     return wait_until(clock_, looks, bound_us, "") == nullptr;
 }
 
-std::optional<DriveFailure> PvtSetup::command(PvtCommand command, std::uint32_t argument, bool (*interrupted)()) {
+std::optional<DriveFailure> PvtSetup::command(PvtCommand command, std::uint32_t argument, bool (*interrupted)(),
+                                              std::uint32_t axes) {
     for (PortDrive& drive : drives_) {
-        drive.command(command, argument);
+        if (drive.wiring().moves_one_of(axes)) {
+            drive.command(command, argument);
+        }
     }
     bool given_up = false;
     static_cast<void>(await(command_us, [&] {
@@ -109,8 +112,8 @@ std::optional<DriveFailure> PvtSetup::enable(bool reset) {
     });
 }
 
-std::optional<DriveFailure> PvtSetup::home(bool (*interrupted)()) {
-    if (const auto failure = command(PvtCommand::home, 0, interrupted)) {
+std::optional<DriveFailure> PvtSetup::home(std::uint32_t axes, bool (*interrupted)()) {
+    if (const auto failure = command(PvtCommand::home, 0, interrupted, axes)) {
         return failure;
     }
     const auto homing = [](const PortDrive& drive) {

@@ -27,12 +27,14 @@ public:
     /// @param reset  resets faults, once each
     [[nodiscard]] std::optional<DriveFailure> enable(bool reset);
     /// @param interrupted  as of home(); nothing is waited for any more
+    /// @param axes  of the machine, by bits: drives that move none of them do not get it
     [[nodiscard]] std::optional<DriveFailure> command(PvtCommand command, std::uint32_t argument = 0,
-                                                      bool (*interrupted)() = nullptr);
-    /// Homes all drives at the same time, each by its own settings, and waits until the last one stands. After a
-    /// failure other drives may still move.
+                                                      bool (*interrupted)() = nullptr, std::uint32_t axes = UINT32_MAX);
+    /// Homes the drives that move these axes at the same time, each by its own settings, and waits until the last one
+    /// stands. After a failure other drives may still move.
+    /// @param axes  of the machine, by bits
     /// @param interrupted  polled meanwhile, may be null; true: a failure of a drive that is still homing
-    [[nodiscard]] std::optional<DriveFailure> home(bool (*interrupted)());
+    [[nodiscard]] std::optional<DriveFailure> home(std::uint32_t axes, bool (*interrupted)());
 
     /// Whether no drive has an unconfirmed command.
     [[nodiscard]] static bool carried_out(const std::vector<PortDrive>& drives) noexcept;

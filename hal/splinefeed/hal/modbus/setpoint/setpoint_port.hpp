@@ -28,11 +28,6 @@ public:
     /// Whether the drive says that it has its reference: then its counts are those of the machine's axis. Before
     /// prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return group_.placed(drive); }
-    /// What prepare() does from now on.
-    void set_ready(bool home, bool reset) noexcept {
-        settings_.home = home;
-        settings_.reset = reset;
-    }
     /// Enables all drives and maps their positions to the start of the first segment. If something is wrong all drives
     /// were stopped by then: a drive that was homing by a quick stop, the others by a hold. Or it is known that they
     /// did not confirm it: stop_report().
