@@ -118,6 +118,7 @@ def run():
     command.auto(linuxcnc.AUTO_RUN, 0)
     wait(lambda: status.interp_state != linuxcnc.INTERP_IDLE or said, 10)
     actions = sorted(job["actions"], key=lambda a: a[0])
+    busy = time.monotonic() # when it last was
     while time.monotonic() - begin < job["timeout_s"]:
         listen()
         while actions and time.monotonic() - begin >= actions[0][0]:
@@ -126,8 +127,9 @@ def run():
         paused = status.task_mode == linuxcnc.MODE_AUTO and status.interp_state == linuxcnc.INTERP_PAUSED
         if paused and not job["actions"]: # M0, M1
             command.auto(linuxcnc.AUTO_RESUME)
-        if idle() and not actions:
-            time.sleep(0.1)
+        if not idle() or actions:
+            busy = time.monotonic()
+        elif time.monotonic() - busy > 1.0: # a loaded computer shows an old state for a while
             recording.clear()
             return ""
         time.sleep(0.002)

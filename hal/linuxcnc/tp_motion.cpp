@@ -10,10 +10,11 @@ namespace splinefeed::linuxcnc {
 
 namespace {
 
-constexpr double steps_per_mm = 1024.0; // +-2^21 mm; a segment's unit is 3e-13 mm
-constexpr int fewest_ahead = 3;         // segments that are ready: two are needed, one is made
-constexpr int probing_with_jerk = 20;   // the least that a search for a stop usually needs
-constexpr unsigned part = 16;           // steps of planning between two looks at the clock
+constexpr double least_segment_s = 0.001; // with a jerk limit: a search takes as long, however short the period is
+constexpr double steps_per_mm = 1024.0;   // +-2^21 mm; a segment's unit is 3e-13 mm
+constexpr int fewest_ahead = 3;           // segments that are ready: two are needed, one is made
+constexpr int probing_with_jerk = 20;     // the least that a search for a stop usually needs
+constexpr unsigned part = 16;             // steps of planning between two looks at the clock
 constexpr double no_limit_mm_s = 65536.0;
 constexpr double at_rest = 0.3; // of the time without a new move: a stop more costs less there
 constexpr double same_place_mm = 1e-6;
@@ -23,6 +24,7 @@ MachineSettings settings_of(const tpc_machine& machine) noexcept {
     MachineSettings out;
     out.axes = machine.axes;
     out.max_feed_mm_s = 0.0;
+    double segment_s = machine.period_s;
     for (const unsigned k : indices(machine.axes)) {
         AxisSettings& axis = out.axis[k];
         axis.rotary = machine.axis[k] >= 3 && machine.axis[k] <= 5;
@@ -31,10 +33,11 @@ MachineSettings settings_of(const tpc_machine& machine) noexcept {
         axis.max_acceleration_mm_s2 = machine.acceleration[k] * mm;
         axis.max_jerk_mm_s3 = machine.jerk[k] * mm;
         axis.steps_per_mm = steps_per_mm;
+        segment_s = machine.jerk[k] > 0.0 ? larger(segment_s, least_segment_s) : segment_s;
         out.max_feed_mm_s += axis.max_velocity_mm_s * axis.max_velocity_mm_s;
     }
     out.max_feed_mm_s = std::sqrt(out.max_feed_mm_s);
-    out.sample_period_us = static_cast<int>(machine.period_s * 1e6 + 0.5);
+    out.sample_period_us = static_cast<int>(segment_s * 1e6 + 0.5);
     return out;
 }
 

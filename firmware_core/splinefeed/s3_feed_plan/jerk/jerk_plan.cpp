@@ -46,6 +46,8 @@ Pull JerkPlan<S, R>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
         pull = take(underrun, work);
+        work.charge();
+        pull = pull == Pull::item && work.spent() ? Pull::busy : pull;
     }
     return pull;
 }

@@ -32,20 +32,32 @@ void WindowPlan<S, R>::begin_leg(std::size_t first, std::size_t end) noexcept {
     leg_first_ = first;
     leg_end_ = end;
     leg_.begin(window_->state(first));
-    for (std::size_t i = first; i < end; ++i) {
-        leg_.add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
-        if (i < planned_ && window_->node(first).b > 0.0) {
-            leg_.know(static_cast<R>(window_->node(i).middle_sq));
-        }
-    }
-    leg_.search();
     searching_ = true;
+}
+
+// Takes the next cell into the leg; after the last one the search begins.
+template <Scalar S, Floating R>
+void WindowPlan<S, R>::add_cell() noexcept {
+    const std::size_t i = leg_first_ + leg_.cells();
+    leg_.add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
+    if (i < planned_ && window_->node(leg_first_).b > 0.0) {
+        leg_.know(static_cast<R>(window_->node(i).middle_sq));
+    }
+    if (i + 1 == leg_end_) {
+        leg_.search();
+    }
 }
 
 // `none`: the plan is as before.
 template <Scalar S, Floating R>
 Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
     Search search = Search::running;
+    while (leg_first_ + leg_.cells() < leg_end_) {
+        if (!work.take()) {
+            return search;
+        }
+        add_cell();
+    }
     while (search == Search::running) {
         if (!work.take(static_cast<unsigned>(leg_.cells()))) {
             return Search::running;

@@ -66,7 +66,8 @@ public:
         complete_ = false;
     }
     /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
-    /// spent; call again. Cost: a step of a search is as many steps of the budget as the leg has cells.
+    /// spent; call again. Cost: a cell that comes into a leg is a step of the budget. A
+    /// step of a search is as many as the leg has cells.
     bool run(WorkBudget& work) noexcept;
 
     /// How often a leg could not be planned as fast as possible.
@@ -74,6 +75,7 @@ public:
 
 private:
     void begin_leg(std::size_t first, std::size_t end) noexcept;
+    void add_cell() noexcept;
     Search search_leg(WorkBudget& work) noexcept;
     [[nodiscard]] std::size_t final_cells(std::size_t first, std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
