@@ -135,7 +135,7 @@ def holds(drives):
     time.sleep(1.0)
     sender = Sender(drives.server)
     require("Held" in sender.line() + sender.line() + sender.line(), "it does not say that it is held")
-    require(sender.report().startswith("<Hold:0"), "not held")
+    sender.until("Hold:0", 5.0)
     sender.send(b"~")
     sender.until("Idle")
     require(sender.place()[:2] == [10.0, 0.0], f"the program goes on to {sender.place()}")
