@@ -37,8 +37,8 @@ std::unique_ptr<ServedMachine> make_target(const std::string& target, RunMachine
     const RunOptions options{.interrupted = &ServedTarget::gives_up};
     std::unique_ptr<RunTarget> made = target_kind(target).make(target, machine.machine, options);
     if (!made->serves()) {
-        throw UsageError(fmt::format("--target {}: serve moves drives that interpolate (splinefeed-pvt), and no others "
-                                     "so far; splinefeed run moves these",
+        throw UsageError(fmt::format("--target {}: serve moves drives on Modbus, and no others so far; splinefeed run "
+                                     "moves these",
                                      in_quotes(target)));
     }
     const PlanFigures figures = fit_to_target(machine.machine, ScalarKind::fixed, *made, false);

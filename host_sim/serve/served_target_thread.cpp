@@ -184,6 +184,7 @@ void ServedTarget::recover() {
     if (phase_ != Phase::closed && phase_ != Phase::failed) {
         return;
     }
+    gives_up_.store(leaves_.load());
     options_.reset = phase_ == Phase::failed;
     reopen();
     if (phase_ == Phase::open && options_.reset && known_.places) {
@@ -240,6 +241,7 @@ void ServedTarget::take_place(const FeedSegment& segment) {
 void ServedTarget::end_motion(const MotionEnd& end) {
     const FeedSegment last = feed_.last();
     feed_.drop();
+    gives_up_.store(leaves_.load()); // what was asked for is done
     if (!feed_.trouble().empty()) {
         fail(feed_.trouble(), Alarm::spindle_speed);
         return;

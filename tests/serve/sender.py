@@ -66,6 +66,7 @@ class ServedDrives:
     def end(self, keep=False, signals=1):
         """Ends the server, which must end well, and the drives, if they are not kept."""
         status, told = self.server.end(signals)
+        told = [line for line in told.splitlines() if not line.startswith("splinefeed: note: ")]
         problems = [] if keep else [problem for drive in self.drives for problem in drive.stop()]
         if status != 0 or told or problems:
             raise Failed(f"exit status {status}: {told} {problems}")

@@ -111,6 +111,8 @@ private:
     [[nodiscard]] bool finish_home() noexcept;
     [[nodiscard]] bool is_late(bool dry) const noexcept;
     void watch() noexcept;
+
+    // controller_endings.cpp
     void brake() noexcept;
     void begin_ending(Ending ending) noexcept;
     void settle() noexcept;

@@ -66,6 +66,22 @@ void SetpointBus::stop() noexcept {
     }
 }
 
+// Where the drives stand is still known.
+void SetpointBus::reset() noexcept {
+    stop();
+    const std::lock_guard lock(mutex_);
+    for (Slot& slot : drives_) {
+        SetpointReport fresh;
+        fresh.reading = slot.report.reading;
+        fresh.answered_us = slot.report.answered_us;
+        fresh.counts = slot.report.counts;
+        fresh.late_us = slot.report.late_us;
+        slot.report = fresh;
+        slot.stop_request.store(StopRequest::none, std::memory_order_relaxed);
+        slot.word_since_us = slot.setpoint_us = slot.rest_setpoint_us = slot.end_sent_us = slot.path_rest_us = 0;
+    }
+}
+
 SetpointReport SetpointBus::report(std::size_t drive) const noexcept {
     const std::lock_guard lock(mutex_);
     return drives_[drive].report;

@@ -79,6 +79,8 @@ public:
     /// motion's clock. `motion` must outlive the bus.
     void start(SetpointMotion& motion, std::uint32_t period_us);
     void stop() noexcept;
+    /// Before another motion: stop(), and what the drives did in the motion before is forgotten.
+    void reset() noexcept;
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept;
     /// How often late targets of a drive stopped the clock.
     [[nodiscard]] std::uint32_t late_stops(std::size_t drive) const noexcept {

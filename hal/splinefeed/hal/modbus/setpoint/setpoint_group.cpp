@@ -96,7 +96,7 @@ PortFailure SetpointGroup::configure() {
 }
 
 // Enables all drives before the first one is homed.
-PortFailure SetpointGroup::make_ready(const FeedSegment& first) {
+PortFailure SetpointGroup::make_ready(const FeedSegment& first, bool placed) {
     if (PortFailure trouble = configure()) {
         return trouble;
     }
@@ -105,7 +105,9 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first) {
         for (std::size_t i = 0; i < slots_.size(); ++i) {
             Slot& slot = slots_[i];
             bool elsewhere = false;
-            SetpointSetup setup(drive(i), {.home = settings_->home,
+            const bool homes =
+                settings_->home && (settings_->home_axes >> static_cast<unsigned>(slot.wiring.axis) & 1U) != 0;
+            SetpointSetup setup(drive(i), {.home = homes,
                                            .reset = settings_->reset,
                                            .away_us = settings_->away_us,
                                            .interrupted = settings_->interrupted,
@@ -121,7 +123,7 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first) {
             const std::int64_t start = first.start[static_cast<std::size_t>(slot.wiring.axis)];
             if (!enabled) {
                 standby.add(drive(i));
-            } else if (!slot.frame.align(drive(i).reading().position_q16, start)) {
+            } else if (!(placed && slot.frame.aligned()) && !slot.frame.align(drive(i).reading().position_q16, start)) {
                 return {AxisFrame::out_of_range, i};
             }
         }
@@ -132,6 +134,16 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first) {
 void SetpointGroup::start(SetpointMotion& motion) {
     for (const auto& bus : buses_) {
         bus->start(motion, period_us_);
+    }
+}
+
+void SetpointGroup::reset() noexcept {
+    for (const auto& bus : buses_) {
+        bus->reset();
+    }
+    for (Slot& slot : slots_) {
+        slot.watch = {};
+        slot.homing = false;
     }
 }
 

@@ -11,12 +11,13 @@
 namespace splinefeed::hal::modbus {
 
 struct SetpointPortSettings {
-    std::uint32_t reserve_us = 100'000; ///< motion time of a stop on the path
-    bool home = false;                  ///< prepare() homes the drives first, one after the other
-    bool reset = false;                 ///< prepare() resets drives that are in fault
-    bool (*interrupted)() = nullptr;    ///< polled during prepare(); true: it ends
-    std::uint32_t buffer_us = 300'000;  ///< motion that is buffered ahead
-    std::uint32_t away_us = 5'000'000;  ///< a drive is offline for this long: the port goes to fault
+    std::uint32_t reserve_us = 100'000;   ///< motion time of a stop on the path
+    bool home = false;                    ///< prepare() homes the drives first, one after the other:
+    std::uint32_t home_axes = UINT32_MAX; ///< those of these axes, by bits
+    bool reset = false;                   ///< prepare() resets drives that are in fault
+    bool (*interrupted)() = nullptr;      ///< polled during prepare(); true: it ends
+    std::uint32_t buffer_us = 300'000;    ///< motion that is buffered ahead
+    std::uint32_t away_us = 5'000'000;    ///< a drive is offline for this long: the port goes to fault
     LinkTiming timing{};
     MakeLine make_line = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
@@ -37,7 +38,10 @@ public:
     }
     /// Enables all drives, homes them if set, and maps their positions to the start of the first segment. Blocks.
     /// @pre open, not started
-    [[nodiscard]] PortFailure make_ready(const FeedSegment& first);
+    /// @param placed  positions that have a meaning keep it
+    [[nodiscard]] PortFailure make_ready(const FeedSegment& first, bool placed = false);
+    /// Before another motion: ends the threads, and forgets what the drives did in the motion before.
+    void reset() noexcept;
     /// Starts the buses' threads. `motion` must outlive them.
     void start(SetpointMotion& motion);
     void stop() noexcept;

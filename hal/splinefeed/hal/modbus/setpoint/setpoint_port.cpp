@@ -27,8 +27,8 @@ constexpr unsigned stop_turns = 10;                // periods of a bus until a c
 } // namespace
 
 SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
-    : settings_(settings), motion_(0, settings.reserve_us), group_(wiring, settings_), facts_(wiring.size()),
-      stop_(wiring.size(), {}) {}
+    : settings_(settings), motion_(std::make_unique<SetpointMotion>(0, settings.reserve_us)), group_(wiring, settings_),
+      facts_(wiring.size()), stop_(wiring.size(), {}) {}
 
 PortFailure SetpointPort::open() {
     return trouble_ = group_.open();
@@ -44,10 +44,28 @@ LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
 }
 
 PortFailure SetpointPort::prepare(const FeedSegment& first) {
-    PortFailure trouble = group_.make_ready(first);
+    return begin_motion(first, false);
+}
+
+// The drives keep the meaning of their positions: each stop would add what a shaft dithers.
+PortFailure SetpointPort::renew(const FeedSegment& first) {
+    set_ready(false, false);
+    return begin_motion(first, true);
+}
+
+// The threads of the motion before end first: they use what is made anew.
+PortFailure SetpointPort::begin_motion(const FeedSegment& first, bool placed) {
+    group_.reset();
+    motion_ = std::make_unique<SetpointMotion>(0, settings_.reserve_us);
+    stop_.reset();
+    trouble_ = {};
+    phases_ = SetpointPhases(setpoint_table(), Phase::filling);
+    stood_since_us_ = arrived_since_us_ = time_us_ = bounded_time_us_ = lag_us_ = submitted_ = 0;
+    late_ = false;
+    PortFailure trouble = group_.make_ready(first, placed);
     set_times();
     make_room(first);
-    group_.start(motion_);
+    group_.start(*motion_);
     began_us_ = bounded_us_ = settings_.clock->now_us();
     referenced_ = !trouble;
     if (referenced_) {
@@ -64,7 +82,7 @@ PortFailure SetpointPort::prepare(const FeedSegment& first) {
 }
 
 void SetpointPort::set_times() {
-    motion_.ahead_us = group_.ahead_us();
+    motion_->ahead_us = group_.ahead_us();
     const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us()} * group_.size() + standstill_us;
     stop_times_.hold_us = lead_us + std::uint64_t{2} * settings_.reserve_us + turns_us + group_.answers_us();
     stop_times_.quick_stop_us += turns_us;
@@ -76,18 +94,18 @@ void SetpointPort::set_times() {
 // The buffer has room for what it has to hold ahead, in segments as short as the first one.
 void SetpointPort::make_room(const FeedSegment& first) {
     segment_ticks_ = std::max<std::uint64_t>(1, first.duration_ticks);
-    const auto ahead_us = static_cast<std::uint32_t>(motion_.ahead_us);
+    const auto ahead_us = static_cast<std::uint32_t>(motion_->ahead_us);
     settings_.buffer_us = std::max(settings_.buffer_us, 2 * (settings_.reserve_us + ahead_us));
     const std::uint64_t held_us = retain_us + settings_.buffer_us + period_us() + spare_us;
-    motion_.trajectory.reset(held_us * ticks_per_us / segment_ticks_ + 2);
+    motion_->trajectory.reset(held_us * ticks_per_us / segment_ticks_ + 2);
 }
 
 void SetpointPort::complete() noexcept {
     {
-        const std::lock_guard lock(motion_.mutex);
-        motion_.complete = motion_.trajectory.ends_at_rest();
+        const std::lock_guard lock(motion_->mutex);
+        motion_->complete = motion_->trajectory.ends_at_rest();
     }
-    if (!motion_.complete && !stop_.requested()) {
+    if (!motion_->complete && !stop_.requested()) {
         begin_stop(StopRequest::hold);
     }
 }
@@ -107,12 +125,12 @@ int SetpointPort::room() const noexcept {
     if (!accepts_segments()) {
         return 0;
     }
-    const std::lock_guard lock(motion_.mutex);
-    const std::uint64_t now = motion_.clock.time(settings_.clock->now_us());
-    const std::uint64_t held = motion_.trajectory.end_us() - std::min(now, motion_.trajectory.end_us());
+    const std::lock_guard lock(motion_->mutex);
+    const std::uint64_t now = motion_->clock.time(settings_.clock->now_us());
+    const std::uint64_t held = motion_->trajectory.end_us() - std::min(now, motion_->trajectory.end_us());
     const std::uint64_t most = settings_.buffer_us + period_us();
     const std::uint64_t room = held < most ? (most - held) * ticks_per_us / segment_ticks_ + 1 : 0;
-    return static_cast<int>(std::min<std::uint64_t>(room, motion_.trajectory.room()));
+    return static_cast<int>(std::min<std::uint64_t>(room, motion_->trajectory.room()));
 }
 
 bool SetpointPort::submit(const FeedSegment& segment) noexcept {
@@ -124,8 +142,8 @@ bool SetpointPort::submit(const FeedSegment& segment) noexcept {
         fail({AxisFrame::out_of_range, *drive});                          // stops on the path
         return false;
     }
-    const std::lock_guard lock(motion_.mutex);
-    const bool taken = motion_.trajectory.push(moved);
+    const std::lock_guard lock(motion_->mutex);
+    const bool taken = motion_->trajectory.push(moved);
     submitted_ += taken ? 1U : 0U;
     return taken;
 }
@@ -137,10 +155,10 @@ void SetpointPort::begin_stop(StopRequest request, Event reason) noexcept {
         stop_began_us_ = now;
     }
     stop_.request(request, now);
-    const std::lock_guard lock(motion_.mutex);
-    motion_.stop_requested = true;
-    if (phases_.phase() != Phase::filling && !motion_.clock.stopping()) { // otherwise the clock was never started
-        motion_.clock.stop(now);
+    const std::lock_guard lock(motion_->mutex);
+    motion_->stop_requested = true;
+    if (phases_.phase() != Phase::filling && !motion_->clock.stopping()) { // otherwise the clock was never started
+        motion_->clock.stop(now);
     }
     static_cast<void>(phases_.take(reason, now));
     phases_.progress(now);
@@ -157,8 +175,8 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     bool together = true;
     for (std::size_t i = 0; i < group_.size(); ++i) {
         const SetpointReport last = report(i);
-        facts_[i] = stop_facts(last, motion_, stop_began_us_);
-        together = together && stands_on_path(last, motion_, group_.wiring(i).axis, group_.tolerance_counts(i));
+        facts_[i] = stop_facts(last, *motion_, stop_began_us_);
+        together = together && stands_on_path(last, *motion_, group_.wiring(i).axis, group_.tolerance_counts(i));
     }
     for (StopFacts& facts : facts_) {
         facts.on_path = together;
@@ -187,8 +205,8 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
 
 // Estimated by the clock.
 std::uint64_t SetpointPort::executed() const noexcept {
-    const std::lock_guard lock(motion_.mutex);
-    return std::min(motion_.clock.time(settings_.clock->now_us()) * ticks_per_us / segment_ticks_, submitted_);
+    const std::lock_guard lock(motion_->mutex);
+    return std::min(motion_->clock.time(settings_.clock->now_us()) * ticks_per_us / segment_ticks_, submitted_);
 }
 
 // Any bus may have stopped the clock for all drives.
@@ -198,16 +216,16 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
         return out[static_cast<std::size_t>(event)];
     };
     {
-        const std::lock_guard lock(motion_.mutex);
-        time_us_ = motion_.time_us(now_us);
-        const std::uint64_t end_us = motion_.trajectory.end_us();
+        const std::lock_guard lock(motion_->mutex);
+        time_us_ = motion_->time_us(now_us);
+        const std::uint64_t end_us = motion_->trajectory.end_us();
         // A full buffer is filled, whatever the lengths of its segments: no more fits.
         fact(Event::filled) =
-            !motion_.trajectory.empty() &&
-            (motion_.complete || end_us >= time_us_ + settings_.buffer_us || motion_.trajectory.room() == 0);
-        fact(Event::slows) = motion_.clock.stopping();
-        fact(Event::stands) = motion_.clock.at_standstill(now_us);
-        fact(Event::ran_out) = motion_.complete && !motion_.trajectory.empty() && time_us_ >= end_us;
+            !motion_->trajectory.empty() &&
+            (motion_->complete || end_us >= time_us_ + settings_.buffer_us || motion_->trajectory.room() == 0);
+        fact(Event::slows) = motion_->clock.stopping();
+        fact(Event::stands) = motion_->clock.at_standstill(now_us);
+        fact(Event::ran_out) = motion_->complete && !motion_->trajectory.empty() && time_us_ >= end_us;
     }
     stood_since_us_ = !fact(Event::stands) ? 0 : stood_since_us_ == 0 ? now_us : stood_since_us_;
     if (fact(Event::stands)) {
@@ -216,7 +234,7 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
         fact(Event::ready) = !drive;
     }
     if (fact(Event::ran_out)) {
-        const std::optional<std::size_t> drive = group_.not_arrived(motion_);
+        const std::optional<std::size_t> drive = group_.not_arrived(*motion_);
         awaited_ = drive.value_or(awaited_);
         arrived_since_us_ = drive ? 0 : arrived_since_us_ == 0 ? now_us : arrived_since_us_;
     }
@@ -225,14 +243,14 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
 }
 
 void SetpointPort::start_clock(std::uint64_t now_us) noexcept {
-    const std::lock_guard lock(motion_.mutex);
-    if (motion_.clock.stopping()) { // its rate rises from 0: a target that does not know of it yet does no harm
-        motion_.runs_from_us = now_us + period_us();
-        motion_.clock.resume(motion_.runs_from_us);
+    const std::lock_guard lock(motion_->mutex);
+    if (motion_->clock.stopping()) { // its rate rises from 0: a target that does not know of it yet does no harm
+        motion_->runs_from_us = now_us + period_us();
+        motion_->clock.resume(motion_->runs_from_us);
         ++resumes_;
     } else {
-        motion_.runs_from_us = now_us + lead_us;
-        motion_.clock.start(motion_.runs_from_us);
+        motion_->runs_from_us = now_us + lead_us;
+        motion_->clock.start(motion_->runs_from_us);
     }
 }
 
@@ -252,8 +270,8 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
         }
     }
     if (phases_.phase() == Phase::running) {
-        const std::lock_guard lock(motion_.mutex);
-        motion_.trajectory.release(time_us_ > retain_us ? time_us_ - retain_us : 0);
+        const std::lock_guard lock(motion_->mutex);
+        motion_->trajectory.release(time_us_ > retain_us ? time_us_ - retain_us : 0);
         if (time_us_ > before_us) {
             phases_.progress(now_us);
         }

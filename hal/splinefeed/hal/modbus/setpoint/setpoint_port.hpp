@@ -32,6 +32,14 @@ public:
     /// were stopped by then: a drive that was homing by a quick stop, the others by a hold. Or it is known that they
     /// did not confirm it: stop_report().
     [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
+    /// As prepare(), but positions keep their meaning.
+    [[nodiscard]] PortFailure renew(const FeedSegment& first) override;
+    /// What prepare() does from now on.
+    void set_ready(bool home, bool reset, std::uint32_t home_axes = UINT32_MAX) noexcept {
+        settings_.home = home;
+        settings_.reset = reset;
+        settings_.home_axes = home_axes;
+    }
     [[nodiscard]] int room() const noexcept override;
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override;
@@ -90,6 +98,7 @@ private:
     /// What is true at a poll, whatever the phase.
     using Facts = std::array<bool, SetpointPhases::events>;
 
+    [[nodiscard]] PortFailure begin_motion(const FeedSegment& first, bool placed);
     void set_times();
     void make_room(const FeedSegment& first);
     void begin_stop(StopRequest request, Event reason = Event::stop) noexcept;
@@ -109,7 +118,7 @@ private:
     [[nodiscard]] std::uint64_t executed() const noexcept;
 
     SetpointPortSettings settings_;
-    mutable SetpointMotion motion_; // used by the bus threads until they end
+    std::unique_ptr<SetpointMotion> motion_; // used by the bus threads until they end
     SetpointGroup group_;
     std::vector<StopFacts> facts_; // of each drive
     StopSequence stop_;
