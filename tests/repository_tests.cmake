@@ -110,6 +110,7 @@ repository_test(judge_linuxcnc_elements LONG "a minute" judge/linuxcnc_elements.
 repository_test(linuxcnc_planner LONG "two minutes" ALONE linuxcnc/planner.sh)
 if(SPLINEFEED_BOOST_INCLUDE)
     repository_test(senders_cncjs LONG "two minutes" ALONE senders/cncjs.sh ${PROJECT_BINARY_DIR})
+    repository_test(senders_bcnc LONG "three minutes" ALONE senders/bcnc.sh ${PROJECT_BINARY_DIR}/bin/splinefeed)
 else()
     skipped_test(senders_cncjs "there is no Boost (Debian: apt-get install libboost-dev)")
 endif()
