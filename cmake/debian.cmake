@@ -19,6 +19,11 @@ set(CPACK_DEBIAN_TOOL_DESCRIPTION "waypoints and G-code become smooth motion
 splinefeed plans the motion of machines with one to six axes along smooth
 curves, within the limits of each axis. It runs it in a simulated machine,
 on drives on Modbus, or as step and direction on GPIO lines.")
+# A unit for each machine that is served, and rules for what it opens. docs/how-to/install_it.md says how they are used.
+set(units ${PROJECT_SOURCE_DIR}/cmake/packaging/systemd)
+install(FILES ${units}/splinefeed-serve@.service DESTINATION lib/systemd/system COMPONENT tool)
+install(FILES ${units}/60-splinefeed.rules DESTINATION lib/udev/rules.d COMPONENT tool)
+set(CPACK_DEBIAN_TOOL_PACKAGE_CONTROL_EXTRA "${units}/postinst;${units}/prerm;${units}/postrm")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsplinefeed-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

@@ -34,7 +34,7 @@ class Cncjs {
         const port = door.address().port;
         door.close();
         const settings = join(scratch, 'cncrc.json');
-        writeFileSync(settings, JSON.stringify({secret: 'of this test', state: {checkForUpdates: false}}));
+        writeFileSync(settings, JSON.stringify({secret: 'of this test', ports: [{path: terminal, manufacturer: ''}], state: {checkForUpdates: false}}));
         this.process = spawn(process.execPath, [load.resolve('cncjs/bin/cncjs'), '-H', '127.0.0.1', '-p', String(port), '-c', settings, '--controller', 'Grbl'],
             {env: {...process.env, HOME: scratch}, stdio: 'ignore'});
         const token = load('jsonwebtoken').sign({id: '', name: 'test'}, 'of this test');
@@ -109,6 +109,9 @@ function circle(count) {
 
 const steps = {
     async 'connect, read settings'(cncjs) {
+        cncjs.socket.emit('list');
+        const [ports] = await once(cncjs.socket, 'serialport:list');
+        require_that(ports.some(port => port.port === cncjs.terminal), `the port is not to be chosen: ${JSON.stringify(ports)}`);
         cncjs.open();
         await cncjs.in_state('Idle');
         await cncjs.until(() => cncjs.settings?.$132, 'it reads no settings');
@@ -256,8 +259,8 @@ let told = '';
 let status = 1;
 try {
     server.stderr.on('data', text => { told += text; });
-    const [places] = await once(server.stdout, 'data');
-    await cncjs.start(String(places).match(/\((\/dev\/pts\/\d+)\)/)[1]);
+    await once(server.stdout, 'data'); // it serves
+    await cncjs.start(join(scratch, 'machine'));
     for (const [name, step] of Object.entries(steps)) {
         try {
             await step(cncjs);
