@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Debian's packages by CPack, from a build with the prefix /usr: cmake/packaging/debian.sh. splinefeed has the tool with its pages,
-# libsplinefeed-dev headers and archives, python3-splinefeed the Python module where it is built.
+# libsplinefeed-dev headers and archives, python3-splinefeed and linuxcnc-splinefeed the modules of Python and LinuxCNC where they are built.
 set(SPLINEFEED_PACKAGE_CONTACT "the splinefeed authors <splinefeed@splinefeed.invalid>" CACHE STRING "Who answers for the packages")
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -52,6 +52,28 @@ all derivatives as numpy arrays. It plans with the bits of the command.")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${scripts}/postinst;${scripts}/prerm")
 endif()
 
+if(TARGET splinefeed_tp)
+    list(APPEND CPACK_COMPONENTS_ALL linuxcnc)
+    # It is compiled for the structures of one version of LinuxCNC.
+    execute_process(COMMAND dpkg-query --show --showformat=\${Version} linuxcnc-uspace-dev OUTPUT_VARIABLE linuxcnc COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX MATCH "^([0-9]+:)?([0-9]+)\\.([0-9]+)" ignored "${linuxcnc}")
+    math(EXPR next_linuxcnc "${CMAKE_MATCH_3} + 1")
+    set(CPACK_DEBIAN_LINUXCNC_PACKAGE_NAME linuxcnc-splinefeed)
+    set(CPACK_DEBIAN_LINUXCNC_PACKAGE_SECTION misc)
+    set(CPACK_DEBIAN_LINUXCNC_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_LINUXCNC_PACKAGE_DEPENDS "linuxcnc-uspace (>= ${CMAKE_MATCH_1}${CMAKE_MATCH_2}.${CMAKE_MATCH_3}~), \
+linuxcnc-uspace (<< ${CMAKE_MATCH_1}${CMAKE_MATCH_2}.${next_linuxcnc}~)")
+    set(CPACK_DEBIAN_LINUXCNC_DESCRIPTION "motion planning of splinefeed - trajectory planner for LinuxCNC
+A module that LinuxCNC loads in place of its own planner, by one line of the
+INI file: moves within the limits of each axis, with a jerk limit if wanted.")
+    set(linuxcnc_licence "
+Comment: This package has a module that is compiled with headers of LinuxCNC and
+ is loaded into it. Those are under the GNU General Public License, version 2 or
+ later, and so is the module as it is linked. Its text is in
+ /usr/share/common-licenses/GPL-2. The sources of splinefeed stay under the
+ licence above.")
+endif()
+
 # Each package has its licence and a changelog.
 file(READ LICENSE licence)
 string(REGEX REPLACE "\n" "\n " licence "${licence}")
@@ -60,7 +82,6 @@ string(REGEX REPLACE "\n \n" "\n .\n" licence "${licence}")
 string(REGEX REPLACE "[ .\n]+$" "." licence "${licence}")
 string(REGEX REPLACE "^MIT License" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\nCopyright: 2026 the splinefeed authors\nLicense: Expat" licence "${licence}")
 string(REGEX REPLACE "License: Expat\n \\.\n Copyright [^\n]*\n \\.\n" "License: Expat\n" licence "${licence}")
-file(WRITE ${PROJECT_BINARY_DIR}/debian/copyright "${licence}\n")
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER ${component} upper)
@@ -68,7 +89,8 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     set(folder ${PROJECT_BINARY_DIR}/debian/${name})
     file(WRITE ${folder}/changelog "${name} (${PROJECT_VERSION}) unstable; urgency=medium\n\n  * What is new: CHANGELOG.md of the sources.\n\n -- ${SPLINEFEED_PACKAGE_CONTACT}  ${now}\n")
     execute_process(COMMAND gzip -9nf ${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)
-    install(FILES ${folder}/changelog.gz ${PROJECT_BINARY_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
+    file(WRITE ${folder}/copyright "${licence}${${component}_licence}\n")
+    install(FILES ${folder}/changelog.gz ${folder}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
             COMPONENT ${component})
 endforeach()
 include(CPack)

@@ -324,6 +324,7 @@ MachineDescription parse_machine(std::string_view text, const std::string& file,
         MachineDescription changed = MachineReader(no_file).machine(root);
         changed.file = file;
         changed.axis_line = machine.axis_line;
+        changed.name += fmt::format(", with {}", fmt::join(settings, " ")); // the page of a run shows it
         return changed;
     } catch (const InputError& error) {
         throw UsageError(fmt::format("--set {}: {}", fmt::join(settings, " --set "), error.what()));

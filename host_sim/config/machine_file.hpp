@@ -15,7 +15,8 @@ namespace splinefeed::host {
 inline constexpr std::size_t largest_machine_file = std::size_t{1} << 20U;
 
 /// Reads the file and checks every key. Throws InputError, with the line of the error.
-/// @param settings  as apply_setting() takes them: they replace what the file states. Throws UsageError for them.
+/// @param settings  as apply_setting() takes them: they replace what the file states, and the machine's name says so.
+///                  Throws UsageError for them.
 [[nodiscard]] MachineDescription read_machine_file(const std::string& path,
                                                    const std::vector<std::string>& settings = {});
 

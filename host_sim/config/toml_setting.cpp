@@ -7,8 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <string_view>
-#include <vector>
+#include <sstream>
 
 namespace splinefeed::host {
 
@@ -92,6 +91,16 @@ void apply_setting(toml::table& document, const std::string& setting) {
     toml::table value = value_of(setting, setting.substr(equals + 1));
     toml::table& table = table_for(document, setting, parts);
     value.get("value")->visit([&](auto& node) { table.insert_or_assign(parts.back(), std::move(node)); });
+}
+
+std::string with_settings(std::string_view text, const std::string& file, const std::vector<std::string>& settings) {
+    toml::table document = parse_toml(text, file);
+    for (const std::string& setting : settings) {
+        apply_setting(document, setting);
+    }
+    std::ostringstream out;
+    out << document << '\n';
+    return out.str();
 }
 
 } // namespace splinefeed::host

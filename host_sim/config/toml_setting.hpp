@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <toml++/toml.h>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -11,5 +13,9 @@ namespace splinefeed::host {
 /// in [[axis]] with that name. The value is TOML, or one word without quotes. Throws UsageError where there is no such
 /// table, or the text is no setting; whoever reads the document knows its keys.
 void apply_setting(toml::table& document, const std::string& setting);
+
+/// The text of a TOML document with these settings, without its comments. Throws InputError where it is none.
+[[nodiscard]] std::string with_settings(std::string_view text, const std::string& file,
+                                        const std::vector<std::string>& settings);
 
 } // namespace splinefeed::host

@@ -48,9 +48,16 @@ auto computed(Work&& work) {
     return work();
 }
 
+/// Throws UsageError where a path names no file: where it is empty, or what the command takes for a standard stream.
+/// @param what  for the message: "the program"
+void require_path(const char* what, const std::string& path);
+
+/// What takes options.
+enum class OptionsOf : unsigned { curve = 1, stream = 2, points = 4, program = 8 };
+
 /// Options by the names of the command's, with _ for -; each as it would be typed, a flag as True or False.
-/// Throws UsageError for a value, and TypeError for a name that is none of them.
-[[nodiscard]] host::RunArguments read_options(const py::dict& options);
+/// Throws UsageError for a value, and TypeError for a name that is none of them, or of something else.
+[[nodiscard]] host::RunArguments read_options(const py::dict& options, OptionsOf of);
 
 using Column = py::array_t<double, py::array::c_style | py::array::forcecast>;
 

@@ -66,7 +66,7 @@ py::tuple as_arrays(const Pieces& pieces) {
 }
 
 py::tuple curve_of_points(const Column& points, const py::dict& options) {
-    host::PathArguments arguments = read_options(options).path;
+    host::PathArguments arguments = read_options(options, OptionsOf::curve).path;
     arguments.name = "points";
     arguments.rows.emplace();
     arguments.rows->open = [table = std::make_shared<const host::WaypointTable>(make_table(points, {}, {}, {}, {}))](
@@ -77,12 +77,14 @@ py::tuple curve_of_points(const Column& points, const py::dict& options) {
 }
 
 py::tuple curve_of_description(const std::string& curve, bool is_text, const py::dict& options) {
-    host::PathArguments arguments = read_options(options).path;
+    host::PathArguments arguments = read_options(options, OptionsOf::curve).path;
     arguments.format = host::input_format("json");
     std::optional<host::MemoryFile> text;
     if (is_text) {
         text.emplace(curve);
         arguments.name = "curve";
+    } else {
+        require_path("the curve", curve);
     }
     arguments.input = is_text ? text->path() : curve;
     return as_arrays(computed([&] { return pieces_of(arguments); }));

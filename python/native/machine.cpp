@@ -2,7 +2,9 @@
 // A machine file, or a text like one.
 #include "python/native/binding.hpp"
 
+#include "host_sim/base/text_file.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/config/toml_setting.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
@@ -51,7 +53,13 @@ void bind_machine(py::module_& module) {
     module.def("default_machine", [] { return share(host::default_machine()); });
     module.def("parse_machine",
                [](const std::string& text, const std::string& name) { return share(host::parse_machine(text, name)); });
-    module.def("read_machine", [](const std::string& path) { return share(host::read_machine_file(path)); });
+    module.def("read_machine", [](const std::string& path, const std::vector<std::string>& settings) {
+        require_path("the machine", path);
+        const std::string text = host::read_text_file(path, host::largest_machine_file);
+        static_cast<void>(host::parse_machine(text, path, settings)); // what is wrong has its line, or its setting
+        const std::string changed = settings.empty() ? text : host::with_settings(text, path, settings);
+        return py::make_tuple(share(host::parse_machine(changed, path)), changed);
+    });
     py::list path_keys;
     for (const auto& number : path_numbers) {
         path_keys.append(number.key);

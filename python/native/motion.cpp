@@ -57,6 +57,7 @@ public:
 
     /// Plans once more: what a page shows is not kept.
     void report(const std::string& file) const {
+        require_path("the report", file);
         host::RunArguments again = arguments_;
         host::RunResult ignored;
         again.outputs.report = file;
@@ -76,7 +77,7 @@ private:
 std::shared_ptr<Motion> plan_points(const Machine& machine, const Column& points, const std::optional<Column>& feed,
                                     const std::optional<Column>& max_feed, const std::optional<Column>& tolerance,
                                     const std::optional<Column>& corner, const py::dict& options) {
-    host::RunArguments arguments = read_options(options);
+    host::RunArguments arguments = read_options(options, OptionsOf::points);
     arguments.path.name = "points";
     arguments.path.rows.emplace();
     arguments.path.rows->open =
@@ -89,12 +90,14 @@ std::shared_ptr<Motion> plan_points(const Machine& machine, const Column& points
 
 std::shared_ptr<Motion> plan_program(const Machine& machine, const std::string& format, const std::string& program,
                                      bool is_text, const py::dict& options) {
-    host::RunArguments arguments = read_options(options);
+    host::RunArguments arguments = read_options(options, OptionsOf::program);
     arguments.path.format = host::input_format(format);
     std::shared_ptr<const host::MemoryFile> text;
     if (is_text) {
         text = std::make_shared<const host::MemoryFile>(program);
         arguments.path.name = "program";
+    } else {
+        require_path("the program", program);
     }
     arguments.path.input = is_text ? text->path() : program;
     return computed([&] { return std::make_shared<Motion>(machine, std::move(arguments), std::move(text)); });

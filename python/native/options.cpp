@@ -17,7 +17,14 @@ using host::GcodeArguments;
 using host::RunArguments;
 using Text = std::optional<std::string>;
 
+// Which of OptionsOf a row is for.
+constexpr unsigned of_all = 15;
+constexpr unsigned of_planned = 14; // not drawn
+constexpr unsigned of_programs = 8;
+constexpr unsigned of_finite = 12; // what can be planned again
+
 struct CurveText {
+    static constexpr unsigned of = of_all;
     const char* name;
     Text CurveArguments::*value;
 };
@@ -40,6 +47,7 @@ constexpr CurveText curve_texts[] = {
 };
 
 struct GcodeText {
+    static constexpr unsigned of = of_programs;
     const char* name;
     Text GcodeArguments::*value;
 };
@@ -50,74 +58,84 @@ constexpr GcodeText gcode_texts[] = {
 };
 
 struct OtherText {
+    unsigned of;
     const char* name;
     void (*take)(const std::string& text, RunArguments& out);
 };
 constexpr OtherText other_texts[] = {
-    {"scalar",
+    {of_all, "scalar",
      [](const std::string& text, RunArguments& out) {
          out.path.scalar = host::read_scalar("--scalar", text, {"fixed", "float", "double"});
      }},
-    {"jerk_scalar",
+    {of_planned, "jerk_scalar",
      [](const std::string& text, RunArguments& out) {
          out.motion.planner.jerk_scalar = host::read_scalar("--jerk-scalar", text, {"double", "float"});
      }},
-    {"window",
+    {of_planned, "window",
      [](const std::string& text, RunArguments& out) {
          out.motion.planner.window_cells = host::read_window(text);
      }},
-    {"state",
+    {of_programs, "state",
      [](const std::string& text, RunArguments& out) {
          out.state = text;
      }},
-    {"position",
+    {of_programs, "position",
      [](const std::string& text, RunArguments& out) {
          out.position = text;
      }},
 };
 
 struct Flag {
+    unsigned of;
     const char* name;
-    bool& (*of)(RunArguments& out);
+    bool& (*member)(RunArguments& out);
 };
 constexpr Flag flags[] = {
-    {"closed",
+    {of_all, "closed",
      [](RunArguments& out) -> bool& {
          return out.path.curve.closed;
      }},
-    {"smooth",
+    {of_all, "smooth",
      [](RunArguments& out) -> bool& {
          return out.path.curve.smooth;
      }},
-    {"increments",
+    {of_programs, "increments",
      [](RunArguments& out) -> bool& {
          return out.path.gcode.increments;
      }},
-    {"block_delete",
+    {of_programs, "block_delete",
      [](RunArguments& out) -> bool& {
          return out.path.gcode.block_delete;
      }},
-    {"optional_stop",
+    {of_programs, "optional_stop",
      [](RunArguments& out) -> bool& {
          return out.path.gcode.optional_stop;
      }},
-    {"advice",
+    {of_finite, "advice",
      [](RunArguments& out) -> bool& {
          return out.helps;
      }},
 };
 
+template <class Row>
+bool is_of(const Row& row, OptionsOf of) {
+    return (row.of & static_cast<unsigned>(of)) != 0;
+}
+
 template <class Row, std::size_t n>
-const Row* find_row(const Row (&rows)[n], const std::string& name) {
-    const Row* const found = std::find_if(rows, rows + n, [&](const Row& row) { return name == row.name; });
+const Row* find_row(const Row (&rows)[n], const std::string& name, OptionsOf of) {
+    const Row* const found =
+        std::find_if(rows, rows + n, [&](const Row& row) { return is_of(row, of) && name == row.name; });
     return found == rows + n ? nullptr : found;
 }
 
-[[noreturn]] void refuse_name(const std::string& name) {
+[[noreturn]] void refuse_name(const std::string& name, OptionsOf of) {
     std::vector<std::string_view> known;
     const auto add = [&](const auto& rows) {
         for (const auto& row : rows) {
-            known.emplace_back(row.name);
+            if (is_of(row, of)) {
+                known.emplace_back(row.name);
+            }
         }
     };
     add(curve_texts);
@@ -139,7 +157,13 @@ std::vector<double> numbers(const std::optional<Column>& column, std::size_t row
 
 } // namespace
 
-RunArguments read_options(const py::dict& options) {
+void require_path(const char* what, const std::string& path) {
+    if (path.empty() || path == "-") {
+        throw host::UsageError(fmt::format("{} has no file; give its path, not '{}'", what, path));
+    }
+}
+
+RunArguments read_options(const py::dict& options, OptionsOf of) {
     RunArguments out;
     out.helps = false;
     out.summary = host::SummaryKind::none;
@@ -148,22 +172,22 @@ RunArguments read_options(const py::dict& options) {
     out.motion.quiet = true;
     for (const auto& [key, value] : options) {
         const auto name = py::cast<std::string>(key);
-        if (const Flag* const flag = find_row(flags, name)) {
+        if (const Flag* const flag = find_row(flags, name, of)) {
             if (!py::isinstance<py::bool_>(value)) {
                 throw py::type_error(name + " must be True or False");
             }
-            flag->of(out) = py::cast<bool>(value);
+            flag->member(out) = py::cast<bool>(value);
             continue;
         }
         const auto text = py::cast<std::string>(py::str(value));
-        if (const CurveText* const of_curve = find_row(curve_texts, name)) {
+        if (const CurveText* const of_curve = find_row(curve_texts, name, of)) {
             out.path.curve.*of_curve->value = text;
-        } else if (const GcodeText* const of_gcode = find_row(gcode_texts, name)) {
+        } else if (const GcodeText* const of_gcode = find_row(gcode_texts, name, of)) {
             out.path.gcode.*of_gcode->value = text;
-        } else if (const OtherText* const other = find_row(other_texts, name)) {
+        } else if (const OtherText* const other = find_row(other_texts, name, of)) {
             other->take(text, out);
         } else {
-            refuse_name(name);
+            refuse_name(name, of);
         }
     }
     return out;

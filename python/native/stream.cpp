@@ -17,7 +17,8 @@ namespace {
 
 class Stream {
 public:
-    Stream(const Machine& machine, const py::dict& options) : Stream(machine, read_options(options)) {}
+    Stream(const Machine& machine, const py::dict& options)
+        : Stream(machine, read_options(options, OptionsOf::stream)) {}
 
     /// The first points say how many coordinates all have.
     void push(const host::WaypointTable& table) {

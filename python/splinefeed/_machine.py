@@ -88,12 +88,15 @@ class Machine:
         self._text = text
 
     @classmethod
-    def from_toml(cls, path: str | os.PathLike[str]) -> Machine:
-        """Reads a machine file. Raises InputError, with the line of what is wrong."""
+    def from_toml(cls, path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None) -> Machine:  # pylint: disable=redefined-builtin
+        """Reads a machine file. Raises InputError, with the line of what is wrong.
+
+        Args:
+            set: values in the place of what the file states, as ``--set`` has them: ``{"axis.x.max_jerk_mm_s3": 30000}``.
+                Raises UsageError for them.
+        """
         out = cls.__new__(cls)
-        native = _native.read_machine(os.fspath(path))
-        with open(path, encoding="utf-8") as file:
-            out._hold(native, file.read())
+        out._hold(*_native.read_machine(os.fspath(path), [f"{name}={_toml(value)}" for name, value in (set or {}).items()]))
         return out
 
     @classmethod

@@ -31,6 +31,14 @@ cp --recursive --no-clobber /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
 cp /etc/resolv.conf /etc/hosts "$root/etc/"
 mkdir "$root/packages" "$root/work"
 cp "$scratch"/packages/*.deb "$root/packages/"
+# That of LinuxCNC would bring half a desktop with it: what it has is looked at here.
+for deb in "$root"/packages/linuxcnc-splinefeed_*.deb; do
+    if [[ ! -e $deb ]]; then continue; fi
+    dpkg-deb --contents "$deb" | grep ' ./usr/lib/linuxcnc/modules/splinefeed_tp.so$' >/dev/null
+    dpkg-deb --fsys-tarfile "$deb" | tar --extract --to-stdout ./usr/share/doc/linuxcnc-splinefeed/copyright | grep GPL-2 >/dev/null
+    dpkg-deb --field "$deb" Depends | grep 'linuxcnc-uspace (>= .*linuxcnc-uspace (<< ' >/dev/null
+    rm "$deb"
+done
 in_root() { chroot "$root" env LC_ALL=C HOME=/root DEBIAN_FRONTEND=noninteractive bash -ec "$1"; }
 # What the packages bring with them is there before, and stays.
 in_root "apt-get update --quiet=2

@@ -153,6 +153,20 @@ class Machines(Scratch):
         points = noise(20, 3)
         np.testing.assert_array_equal(splinefeed.plan(points, machine).segments, splinefeed.plan(points, again).segments)
 
+    def test_a_file_with_other_values(self):
+        path = EXAMPLES / "three_axis.toml"
+        machine = Machine.from_toml(path, set={"axis.y.max_jerk_mm_s3": 30000, "path.max_feed_mm_s": 50.0, "name": "an \"other\" one"})
+        self.assertEqual((machine.name, machine.limits["max_feed_mm_s"]), ('an "other" one', 50.0))
+        np.testing.assert_array_equal(machine.limits["max_jerk_mm_s3"], [np.nan, 30000, np.nan])
+        (self.folder / "m.toml").write_text(machine.toml)
+        points = noise(20, 3)
+        np.testing.assert_array_equal(splinefeed.plan(points, machine).segments, splinefeed.plan(points, Machine.from_toml(self.folder / "m.toml")).segments)
+        self.assertEqual(Machine.from_toml(path).toml, path.read_text())
+        for wrong, sentence in (({"axis.x.max_jerk_mm_s3": 0.1}, "--set axis.x.max_jerk_mm_s3=0.1: max_jerk_mm_s3 is 0.1; it must lie between"),
+                                ({"axis.u.kind": "rotary"}, "the machine has no axis 'u'; it has x, y, z"), ({"jerk": 1}, "unknown key 'jerk'")):
+            with self.assertRaisesRegex(UsageError, sentence):
+                Machine.from_toml(path, set=wrong)
+
     def test_a_mapping_names_axes_that_there_are(self):
         with self.assertRaisesRegex(ValueError, "there is no axis 'X'; the axes are x, y, z"):
             Machine("xyz", **LIMITS, max_jerk_mm_s3={"X": 30000})
@@ -210,6 +224,15 @@ class Refusals(Scratch):
                 self.assertEqual((status, error), (2, f"{raised.exception}\n"))
                 with self.assertRaisesRegex(InputError, "^program:"):
                     plan(text)
+        for empty in ("", "-"):
+            for what, call in (("program", splinefeed.plan_gcode), ("program", splinefeed.plan_elements), ("curve", Curve.from_json), ("machine", Machine.from_toml),
+                               ("report", splinefeed.plan(FIVE).report)):
+                with self.subTest(what=what, path=empty), self.assertRaisesRegex(UsageError, f"the {what} has no file; give its path, not '{empty}'"):
+                    call(empty)
+        for call, options in ((Stream, {"advice": True}), (Stream, {"dialect": "grbl"}), (splinefeed.plan, {"dialect": "grbl"}), (splinefeed.plan, {"state": "s"}),
+                              (splinefeed.plan, {"block_delete": True}), (Curve, {"window": 64}), (Curve, {"advice": True})):
+            with self.subTest(options), self.assertRaisesRegex(TypeError, f"there is no argument '{next(iter(options))}'"):
+                call(*() if call is Stream else (FIVE,), **options)
         with self.assertRaisesRegex(InputError, "none.ngc: cannot be opened"):
             splinefeed.plan_gcode("none.ngc")
 
