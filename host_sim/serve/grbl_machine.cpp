@@ -31,8 +31,8 @@ constexpr std::int32_t max_rpm = 30;
 constexpr std::int32_t min_rpm = 31;
 constexpr std::int32_t velocity = 110;
 constexpr std::int32_t travel = 130;
-constexpr std::int32_t written[] = {step_length, drives_idle, inverted_steps, inverted_directions,
-                                    soft_limits, max_rpm,     min_rpm};
+constexpr std::int32_t taken_over[] = {step_length, drives_idle, inverted_steps, inverted_directions,
+                                       soft_limits, max_rpm,     min_rpm};
 constexpr std::int32_t of_axes[] = {100, velocity, 120, travel};
 constexpr std::int32_t always_on = 255;
 constexpr unsigned home_is_zero = 3; // a bit of `homing`, in grblHAL alone
@@ -45,7 +45,7 @@ struct LeftOut {
     double factor;
     std::string_view text;
 };
-constexpr LeftOut left_out[] = {
+constexpr LeftOut not_taken_over[] = {
     {10, 0.0, "senders set what a status has"},
     {11, 0.0, "corners are rounded within default_tolerance_mm of [path], or within the P of G64"},
     {12, 0.0, "arcs stay arcs"},
@@ -191,7 +191,7 @@ private:
         const auto of_axis = [number](std::int32_t first) {
             return number >= first && number < first + static_cast<std::int32_t>(columns.size());
         };
-        return std::find(std::begin(written), std::end(written), number) != std::end(written) ||
+        return std::find(std::begin(taken_over), std::end(taken_over), number) != std::end(taken_over) ||
                std::any_of(std::begin(of_axes), std::end(of_axes), of_axis);
     }
 
@@ -213,9 +213,9 @@ private:
 
     [[nodiscard]] std::string meaning(const GrblSetting& setting) const {
         const std::string_view key = SettingList::key_of(setting.number);
-        const auto* const known = std::find_if(std::begin(left_out), std::end(left_out),
+        const auto* const known = std::find_if(std::begin(not_taken_over), std::end(not_taken_over),
                                                [&](const LeftOut& row) { return row.number == setting.number; });
-        if (known == std::end(left_out)) {
+        if (known == std::end(not_taken_over)) {
             return key.empty() ? "not known here" : std::string(key);
         }
         if (known->factor == 0.0) {
