@@ -16,7 +16,9 @@ constexpr int fewest_ahead = 3;           // segments that are ready: two are ne
 constexpr int probing_with_jerk = 20;     // the least that a search for a stop usually needs
 constexpr unsigned part = 16;             // steps of planning between two looks at the clock
 constexpr double no_limit_mm_s = 65536.0;
-constexpr double at_rest = 0.3; // of the time without a new move: a stop more costs less there
+constexpr double at_rest = 0.3;             // of the time without a new move: a stop more costs less there
+constexpr double between_changes_s = 0.004; // of an override that changes all the time, as an adaptive feed may
+constexpr double with_jerk_s = 0.1;         // a search for each
 constexpr double same_place_mm = 1e-6;
 constexpr unsigned most_pushed = 4; // moves, between two looks at the clock
 
@@ -184,6 +186,7 @@ const char* TpMotion::begin_path() noexcept {
     piece_ = pushed_ - 1U;
     sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
     sent_ratio_ = sent_rapids_ = 1.0;
+    since_change_s_ = with_jerk_s;
     sent_max_ = no_limit_mm_s;
     return nullptr;
 }
@@ -203,17 +206,24 @@ void TpMotion::steer(const tpc_input& input) noexcept {
         }
         sent_hold_ = hold;
     }
-    if (input.ratio != sent_ratio_) {
-        sent_ratio_ = input.ratio;
+    since_change_s_ += machine_.period_s;
+    const bool settled = since_change_s_ >= (limits_.jerk_limited ? with_jerk_s : between_changes_s);
+    const auto follows = [&](double asked, double& sent) {
+        if (asked == sent || !(settled || !(asked > 0.0) || !(sent > 0.0))) {
+            return false;
+        }
+        sent = asked;
+        since_change_s_ = 0.0;
+        return true;
+    };
+    if (follows(input.ratio, sent_ratio_)) {
         trajectory_.override_feed(input.ratio);
     }
-    if (input.rapids != sent_rapids_) {
-        sent_rapids_ = input.rapids;
+    if (follows(input.rapids, sent_rapids_)) {
         trajectory_.override_rapids(input.rapids);
     }
     const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
-    if (most != sent_max_) {
-        sent_max_ = most;
+    if (follows(most, sent_max_)) {
         trajectory_.limit_feed(most);
     }
 }

@@ -111,6 +111,7 @@ private:
     double sent_ratio_ = 1.0;
     double sent_rapids_ = 1.0;
     double sent_max_ = 0.0;
+    double since_change_s_ = 0.0; // of one of them
     bool sent_hold_ = false;
     bool sent_abort_ = false;
     bool planning_ = false; // a path is begun

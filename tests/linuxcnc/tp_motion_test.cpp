@@ -2,20 +2,16 @@
 //
 // The module without LinuxCNC: moves come as task sends them, one a period; the operator interferes at random, and in a
 // tenth of the periods planning gets no time. What is judged are the positions of all periods.
-#include "linuxcnc/tp_motion.hpp"
+#include "tp_control.hpp"
 
 #include "support/bezier_paths.hpp"
-#include "support/catch.hpp"
 #include "support/rounds.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
 
-#include <cmath>
-#include <memory>
 #include <string>
-#include <vector>
 
-using namespace splinefeed::linuxcnc;
+using namespace linuxcnc_test;
 using splinefeed_test::first_round;
 using splinefeed_test::Random;
 using splinefeed_test::rounds;
@@ -23,96 +19,6 @@ using splinefeed_test::rounds;
 namespace {
 
 constexpr std::uint64_t seed = 90210;
-
-/// Each look at the clock takes a microsecond; in a starved period the second one a second.
-long long clock_ns = 0;
-bool starved = false;
-long long look() {
-    clock_ns += starved ? 1'000'000'000 : 1'000;
-    return clock_ns;
-}
-
-tpc_machine machine_of(int axes, double period_s, double jerk) {
-    tpc_machine machine{};
-    machine.axes = axes;
-    for (int k = 0; k < axes; ++k) {
-        machine.axis[k] = k;
-        machine.velocity[k] = 100.0;
-        machine.acceleration[k] = 1000.0;
-        machine.jerk[k] = jerk;
-    }
-    machine.mm_per_unit = 1.0;
-    machine.period_s = period_s;
-    return machine;
-}
-
-tpc_move line_to(double x, double y, double feed, double tolerance = 0.01) {
-    tpc_move move{};
-    move.mode = TPC_CONTINUOUS;
-    move.to[0] = x;
-    move.to[1] = y;
-    move.tolerance = tolerance;
-    move.feed = feed;
-    return move;
-}
-
-/// LinuxCNC around the module: a move and a period at a time.
-class Control {
-public:
-    explicit Control(const tpc_machine& machine) : machine_(machine), motion_(std::make_unique<TpMotion>()) {
-        motion_->create({look, 0.1, machine.jerk[0] > 0.0 ? 40 : 8, 0.01}, machine);
-        const double zero[tpc_axes] = {};
-        motion_->set(zero);
-    }
-    int add(const tpc_move& move) {
-        const int error = motion_->add(move);
-        out.last += error == 0 ? 1U : 0U;
-        return error;
-    }
-    void period() {
-        if (motion_->begins() && input.abort == 0) {
-            motion_->begin(machine_);
-        }
-        motion_->run(input, out);
-        places.push_back({out.position[0], out.position[1], out.position[2]});
-        aborted = aborted || input.abort != 0;
-        input.abort = out.first == out.last ? 0 : input.abort;
-    }
-    void until_over() {
-        for (int n = 0; n < 1'000'000 && out.first != out.last; ++n) {
-            period();
-        }
-        REQUIRE(out.first == out.last);
-    }
-    /// The largest use of a limit of the axes.
-    [[nodiscard]] double use() const {
-        double most = 0.0;
-        const double t = machine_.period_s;
-        for (std::size_t i = 3; i < places.size(); ++i) {
-            for (unsigned k = 0; k < 3; ++k) {
-                const auto d = [&](std::size_t n) {
-                    return places[n][k] - places[n - 1][k];
-                };
-                most = std::max(most, std::fabs(d(i)) / t / machine_.velocity[k]);
-                most = std::max(most, std::fabs(d(i) - d(i - 1)) / (t * t) / machine_.acceleration[k]);
-                if (machine_.jerk[k] > 0.0) {
-                    most = std::max(most, std::fabs(d(i) - 2.0 * d(i - 1) + d(i - 2)) / (t * t * t) / machine_.jerk[k]);
-                }
-            }
-        }
-        return most;
-    }
-    [[nodiscard]] const tpc_figures& figures() const { return motion_->figures(); }
-
-    tpc_input input{1.0, 1.0, 1e6, 0, 0, 0};
-    tpc_output out{};
-    std::vector<std::array<double, 3>> places;
-    bool aborted = false; // at any time
-
-private:
-    tpc_machine machine_;
-    std::unique_ptr<TpMotion> motion_;
-};
 
 /// What an operator may do in a period.
 void interfere(Random& random, Control& control) {
@@ -263,83 +169,6 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
     control.until_over();
     CHECK(control.out.position[0] == 20.0);
     CHECK(control.use() <= 1.0001);
-}
-
-TEST_CASE("the motion follows override, slider and hold at once, while it probes sooner", "[linuxcnc]") {
-    struct Order {
-        bool rapid;
-        tpc_input input;
-        double speed; // mm/s, where 50 are programmed, or as fast as the axis can
-    };
-    for (const Order& order :
-         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0}, 80.0},
-          Order{false, {1.0, 1.0, 20.0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0}, 0.0},
-          Order{false, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0},
-          Order{true, {0.1, 0.5, 1e6, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0}, 30.0},
-          Order{true, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0}}) {
-        for (const double jerk : {0.0, 30'000.0}) {
-            double until_slower_s[2] = {};
-            for (const bool probes : {false, true}) {
-                Control control(machine_of(3, 0.001, jerk));
-                tpc_move move = line_to(80.0, 0.0, 50.0);
-                move.probes = probes ? 1 : 0;
-                move.rapid = order.rapid ? 1 : 0;
-                REQUIRE(control.add(move) == 0);
-                const double before = order.rapid ? 100.0 : 50.0;
-                const auto run = [&](int periods) {
-                    for (int n = 0; n < periods; ++n) {
-                        control.period();
-                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - before) < 0.01 ? 0.001 : 0.0;
-                    }
-                };
-                run(300);
-                CAPTURE(order.rapid, order.speed, order.input.hold, jerk, probes);
-                REQUIRE(control.out.speed == Approx(before));
-                until_slower_s[probes ? 1 : 0] = 0.0;
-                control.input = order.input;
-                run(250);
-                CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
-                control.input = {1.0, 1.0, 1e6, 0, 0, 0};
-                control.until_over();
-                CHECK(control.out.position[0] == 80.0);
-                CHECK(control.use() <= 1.0001);
-            }
-            CHECK(until_slower_s[1] < until_slower_s[0]);
-        }
-    }
-}
-
-TEST_CASE("overrides are for moves of their kind, and the slider is not for rotary axes alone", "[linuxcnc]") {
-    tpc_machine machine = machine_of(4, 0.001, 0.0);
-    Control control(machine);
-    tpc_move rapid = line_to(40.0, 0.0, 50.0);
-    rapid.rapid = 1;
-    REQUIRE(control.add(rapid) == 0);
-    REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
-    tpc_move turn = line_to(80.0, 0.0, 100.0);
-    turn.to[3] = 40.0; // degrees
-    REQUIRE(control.add(turn) == 0);
-    control.input = {0.5, 0.25, 20.0, 0, 0, 0};
-    double fastest[3] = {};
-    double x = 0.0;
-    double a = 0.0;
-    while (control.out.first != control.out.last) {
-        const unsigned move = control.out.first;
-        control.period();
-        const double moved = std::fabs(control.out.position[0] - x) + std::fabs(control.out.position[3] - a);
-        x = control.out.position[0];
-        a = control.out.position[3];
-        fastest[move % 3] = std::max(fastest[move % 3], moved / 0.001);
-        if (move == 0 && x > 20.0) {
-            control.input.max_feed = 1e6;
-        }
-        if (move == 1 && x > 60.0) {
-            control.input = {1.0, 1.0, 20.0, 0, 0, 0};
-        }
-    }
-    CHECK(fastest[0] == Approx(25.0).epsilon(1e-3));
-    CHECK(fastest[1] == Approx(25.0).epsilon(1e-3));
-    CHECK(fastest[2] == Approx(100.0).epsilon(1e-3));
 }
 
 TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {

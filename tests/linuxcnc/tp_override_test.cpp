@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+//
+// What an operator and HAL ask of the feed while the module moves the machine.
+#include "tp_control.hpp"
+
+using namespace linuxcnc_test;
+
+TEST_CASE("the motion follows override, slider and hold at once, while it probes sooner", "[linuxcnc]") {
+    struct Order {
+        bool rapid;
+        tpc_input input;
+        double speed; // mm/s, where 50 are programmed, or as fast as the axis can
+    };
+    for (const Order& order :
+         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0}, 80.0},
+          Order{false, {1.0, 1.0, 20.0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0}, 0.0},
+          Order{false, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0},
+          Order{true, {0.1, 0.5, 1e6, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0}, 30.0},
+          Order{true, {1.0, 1.0, 1e6, 1, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0}, 0.0}}) {
+        for (const double jerk : {0.0, 30'000.0}) {
+            double until_slower_s[2] = {};
+            for (const bool probes : {false, true}) {
+                Control control(machine_of(3, 0.001, jerk));
+                tpc_move move = line_to(80.0, 0.0, 50.0);
+                move.probes = probes ? 1 : 0;
+                move.rapid = order.rapid ? 1 : 0;
+                REQUIRE(control.add(move) == 0);
+                const double before = order.rapid ? 100.0 : 50.0;
+                const auto run = [&](int periods) {
+                    for (int n = 0; n < periods; ++n) {
+                        control.period();
+                        until_slower_s[probes ? 1 : 0] += std::fabs(control.out.speed - before) < 0.01 ? 0.001 : 0.0;
+                    }
+                };
+                run(300);
+                CAPTURE(order.rapid, order.speed, order.input.hold, jerk, probes);
+                REQUIRE(control.out.speed == Approx(before));
+                until_slower_s[probes ? 1 : 0] = 0.0;
+                control.input = order.input;
+                run(250);
+                CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
+                control.input = {1.0, 1.0, 1e6, 0, 0, 0};
+                control.until_over();
+                CHECK(control.out.position[0] == 80.0);
+                CHECK(control.use() <= 1.0001);
+            }
+            CHECK(until_slower_s[1] < until_slower_s[0]);
+        }
+    }
+}
+
+TEST_CASE("overrides are for moves of their kind, and the slider is not for rotary axes alone", "[linuxcnc]") {
+    tpc_machine machine = machine_of(4, 0.001, 0.0);
+    Control control(machine);
+    tpc_move rapid = line_to(40.0, 0.0, 50.0);
+    rapid.rapid = 1;
+    REQUIRE(control.add(rapid) == 0);
+    REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
+    tpc_move turn = line_to(80.0, 0.0, 100.0);
+    turn.to[3] = 40.0; // degrees
+    REQUIRE(control.add(turn) == 0);
+    control.input = {0.5, 0.25, 20.0, 0, 0, 0};
+    double fastest[3] = {};
+    double x = 0.0;
+    double a = 0.0;
+    while (control.out.first != control.out.last) {
+        const unsigned move = control.out.first;
+        control.period();
+        const double moved = std::fabs(control.out.position[0] - x) + std::fabs(control.out.position[3] - a);
+        x = control.out.position[0];
+        a = control.out.position[3];
+        fastest[move % 3] = std::max(fastest[move % 3], moved / 0.001);
+        if (move == 0 && x > 20.0) {
+            control.input.max_feed = 1e6;
+        }
+        if (move == 1 && x > 60.0) {
+            control.input = {1.0, 1.0, 20.0, 0, 0, 0};
+        }
+    }
+    CHECK(fastest[0] == Approx(25.0).epsilon(1e-3));
+    CHECK(fastest[1] == Approx(25.0).epsilon(1e-3));
+    CHECK(fastest[2] == Approx(100.0).epsilon(1e-3));
+}
+
+TEST_CASE("a feed that changes in every period is followed", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        Control control(machine_of(3, 0.001, jerk));
+        REQUIRE(control.add(line_to(40.0, 0.0, 50.0)) == 0);
+        REQUIRE(control.add(line_to(40.0, 30.0, 50.0)) == 0);
+        int periods = 0;
+        for (; control.out.first != control.out.last && periods < 4000; ++periods) {
+            control.input.ratio = 0.8 + 0.0001 * (7919 * periods % 100);
+            control.period();
+        }
+        CAPTURE(jerk, periods);
+        CHECK(periods < 2000); // 1750 at 40 mm/s
+        CHECK(control.out.position[1] == 30.0);
+        CHECK(control.use() <= 1.0001);
+    }
+}
