@@ -126,7 +126,7 @@ void Controller::resume() noexcept {
     if (reading_.alarm != Alarm::none || ending_ != Ending::none) {
         return;
     }
-    tool_ = false;
+    tool_ = refuses_ = false;
     if (held_) {
         held_ = false;
         spindle_.restore();

@@ -97,6 +97,7 @@ private:
     void forget_lines() noexcept {
         lines_.clear();
         refused_lines_ = of_another_ = 0;
+        refuses_ = false;
     }
 
     // controller_motion.cpp
@@ -144,8 +145,9 @@ private:
     Task task_ = Task::none;
     Ending ending_ = Ending::none;
     Alarm alarm_ = Alarm::none;
-    bool locked_ = false; // until $H or $X, without an alarm
-    bool quick_ = false;  // the machine stops by itself: where it then stands the motion goes on
+    bool refuses_ = false; // until '~': a refused line holds the motion, and more may be on its way
+    bool locked_ = false;  // until $H or $X, without an alarm
+    bool quick_ = false;   // the machine stops by itself: where it then stands the motion goes on
     bool held_ = false;
     bool door_ = false;
     bool closes_ = false; // the door's hold ends when the spindle has its speed

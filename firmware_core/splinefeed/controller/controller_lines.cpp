@@ -193,8 +193,8 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
 
 void Controller::execute_line() noexcept {
     TextCursor cursor(line_.view());
-    const bool late = refused_lines_ > 0; // it had come before its sender knew
-    refused_lines_ -= late ? 1U : 0U;
+    const bool late = refused_lines_ > 0 || refuses_; // it was sent before its sender knew
+    refused_lines_ -= refused_lines_ > 0 ? 1U : 0U;
     const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h';
     if (line_.too_long) {
         say("A line has at most 256 characters beside comments");
@@ -277,6 +277,7 @@ void Controller::refuse_block(const BlockStatus& status) noexcept {
     refused_lines_ = lines_.lines();
     if (!motion_->exhausted()) {
         hold();
+        refuses_ = held_;
     }
 }
 
