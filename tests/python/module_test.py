@@ -89,6 +89,9 @@ class Planning(Scratch):
         unit = 320 * _native.units_per_count
         order = np.random.default_rng(2).permutation(len(motion.segments))
         np.testing.assert_allclose(motion.sample(motion.begins[:-1][order]).position, motion.segments["start"][order] / unit, rtol=0, atol=1e-12)
+        long = splinefeed.plan(noise(300), JERKY)  # times that seconds round to either side of a tick
+        half = np.diff(long.begins) / 2
+        np.testing.assert_array_equal(long.sample(long.begins[:-1]).jerk, long.sample(long.begins[:-1] + half).jerk)
         h, inner = 1e-5, np.linspace(0.01, motion.time - 0.01, 997)
         below, here, above = motion.sample(inner - h), motion.sample(inner), motion.sample(inner + h)
         for derivative, of in (("velocity", "position"), ("acceleration", "velocity")):
