@@ -46,7 +46,6 @@ public:
             FeedSegment segment;
             state_ = path_->next(segment, drain ? UnderrunPolicy::drain : UnderrunPolicy::wait);
             if (state_ == Pull::item) {
-                path_->feeder().passed(segment.waypoint);
                 keep(segment, out);
             } else if (state_ != Pull::starved || !read()) {
                 break;

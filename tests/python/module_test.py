@@ -65,6 +65,10 @@ class Planning(Scratch):
                          for (x, y), f, c in zip(points.tolist(), feed, corner))
         (self.folder / "p.csv").write_text(f"x,y,feed,corner\n{rows}\n")
         self.same_as_the_command(splinefeed.plan(points, JERKY, feed_mm_s=feed, corner=corner), self.folder / "p.csv")
+        tolerance = np.where(np.arange(40) % 2, 0.5, 0.1)
+        np.savetxt(self.folder / "t.csv", np.column_stack([points, tolerance]), delimiter=",", fmt="%.17g", header="x,y,tolerance", comments="")
+        segments, _ = tool.planned(self.folder / "t.csv", JERKY, "--curve", "polyline")
+        np.testing.assert_array_equal(tool.as_rows(splinefeed.plan(points, JERKY, curve="polyline", tolerance_mm=tolerance).segments, 3), segments)
         np.savetxt(self.folder / "q.csv", points, delimiter=",", fmt="%.17g")
         for options, typed in (({"curve": "catmull-rom", "tension": 0.4, "smooth": True}, "--curve catmull-rom --tension 0.4 --smooth"),
                                ({"curve": "polyline", "tolerance_mm": np.array(0.3)}, "--curve polyline --tolerance 0.3"),
@@ -89,6 +93,9 @@ class Planning(Scratch):
         unit = 320 * _native.units_per_count
         order = np.random.default_rng(2).permutation(len(motion.segments))
         np.testing.assert_allclose(motion.sample(motion.begins[:-1][order]).position, motion.segments["start"][order] / unit, rtol=0, atol=1e-12)
+        long = splinefeed.plan(noise(300), JERKY)  # times that seconds round to either side of a tick
+        half = np.diff(long.begins) / 2
+        np.testing.assert_array_equal(long.sample(long.begins[:-1]).jerk, long.sample(long.begins[:-1] + half).jerk)
         h, inner = 1e-5, np.linspace(0.01, motion.time - 0.01, 997)
         below, here, above = motion.sample(inner - h), motion.sample(inner), motion.sample(inner + h)
         for derivative, of in (("velocity", "position"), ("acceleration", "velocity")):
@@ -336,6 +343,16 @@ class Streams(Scratch):
         stream.finish()
         self.assertGreater(len(self.drain(stream)), 0)
         self.assertEqual(stream.state, "finished")
+
+    def test_a_feed_has_its_limit_for_every_override(self):
+        times = []
+        for most in (None, 20.0):
+            stream = Stream(Machine("xy", **LIMITS))
+            stream.override(2.0)
+            stream.push(noise(40), feed_mm_s=20.0, max_feed_mm_s=most)
+            stream.finish()
+            times.append(len(self.drain(stream)))
+        self.assertLess(times[0], 0.7 * times[1])
 
     def test_what_a_stream_refuses(self):
         with self.assertRaisesRegex(UsageError, "bspline-interpolation needs all points before it begins; take plan"):
