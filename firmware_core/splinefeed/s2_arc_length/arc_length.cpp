@@ -57,8 +57,9 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 }
 
 // The speed changes near joints, and most near stops. Halving makes cells grow geometrically with the distance from a
-// stop. If nothing stops, one halving is enough, because the plan speeds up and brakes within a cell. Between two stops
-// there are at least eight cells: room to start and to brake even in the shortest move. A line needs none of it.
+// stop. If nothing stops, three halvings are enough; otherwise a slow feed would cut every segment into degenerate
+// cells. Between two stops there are at least eight cells: room to start and to brake even in the shortest move. A line
+// needs none of it where the plan speeds up and brakes within a cell.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (m_.length_mm > refinement_.longest_mm) {
@@ -73,7 +74,7 @@ bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (stop_before_ && stop_after_ && piece.level < 3) {
         return true;
     }
-    if (piece.level == 0 && m_.length_mm > grade_mm_) {
+    if (m_.length_mm > grade_mm_ && (piece.at_start || piece.at_end) && piece.level < 3) {
         return true;
     }
     return (m_.length_mm > grade_mm_ && coarse_near(piece, slow_before_, slow_after_)) ||
@@ -315,7 +316,7 @@ Pull ArcLength<S>::load() noexcept {
         }
     }
     stack_[0].level = 0;
-    stack_[0].at_end = true;
+    stack_[0].at_start = stack_[0].at_end = true;
     depth_ = 1;
     ++segments_;
     return Pull::item;
@@ -329,7 +330,9 @@ void ArcLength<S>::split() noexcept {
     Piece<S>& left = top();
     ++right.level;
     left.level = right.level;
+    left.at_start = right.at_start;
     left.at_end = false;
+    right.at_start = false;
     right.halve(current().axes, current().degree, left.control, right.control);
     if constexpr (counts_from_own_start<S>) {
         left.start = right.start;

@@ -21,7 +21,8 @@ struct Piece {
 
     PerAxis<PerDegree<S>> control{}; ///< offsets from the segment's origin, or from `start`
     [[no_unique_address]] std::conditional_t<counts_from_own_start<S>, PerAxis<Position>, Nowhere> start{};
-    int level = 0; ///< number of halvings of the segment
+    int level = 0;         ///< number of halvings of the segment
+    bool at_start = false; ///< it begins at the start of its segment
     bool at_end = false;
 
     /// Whether no control point is farther than `nothing` from the first one, in each axis.

@@ -339,7 +339,7 @@ Steered FeedPlan<S>::steer(const PlanState<S>& place, UnderrunPolicy /*underrun*
     const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
-    rest_to_rest_ = chosen_ = false; // it may still have its peak
+    rest_to_rest_ = peaks_ = chosen_ = false;
     if (speed_sq_ > S{} || !steering_.stops()) {
         forward_step(known);
     }
