@@ -53,6 +53,10 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
     if (!limits_.jerk_limited) { // else that counts the window of the plan that another one refines
         out.window_limited = trajectory.feed_plan().window_limited();
     }
+    planner_.visit_jerk([&](const auto& plan) {
+        out.searched_legs = plan.searched_legs();
+        out.slow_legs = plan.slow_legs();
+    });
     out.curve_bytes = watched_.curve.bytes();
     out.plan_bytes = planner_.bytes();
     out.stream_bytes = sizeof(SegmentStream<S>);

@@ -63,6 +63,15 @@ public:
     [[nodiscard]] const char* jerk_scalar() const noexcept {
         return in_float_ ? scalar_name<float>() : in_double_ ? scalar_name<double>() : "";
     }
+    /// Calls visit(JerkPlan) where the jerk is limited.
+    template <class Visit>
+    void visit_jerk(Visit&& visit) const {
+        if (in_float_) {
+            visit(in_float_->planner.plan());
+        } else if (in_double_) {
+            visit(in_double_->planner.plan());
+        }
+    }
     /// Memory of the planning, without that of the segment stream.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return (acceleration_ ? sizeof *acceleration_

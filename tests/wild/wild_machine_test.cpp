@@ -21,6 +21,14 @@ namespace {
 constexpr std::uint64_t seed = 60818;
 constexpr std::uint64_t most_segments = 15'000; // of a run in double: then it is left
 
+/// Of all jerk-limited runs so far: JerkPlan::searched_legs and slow_legs.
+struct Legs {
+    std::uint64_t searched = 0;
+    std::uint64_t slow = 0;
+};
+Legs in_small_windows; // of 16 cells: a bend that comes into sight there may leave no way but to stop before it
+Legs in_windows;       // of 64 and 256
+
 const char* name_of(ScalarKind scalar) {
     return scalar == ScalarKind::fixed ? "fixed" : scalar == ScalarKind::float32 ? "float" : "double";
 }
@@ -32,6 +40,9 @@ WildRun checked(ScalarKind scalar, const RunArguments& arguments, std::uint64_t 
     in_scalar.path.scalar = scalar;
     const WildRun run = wild_run(in_scalar, most);
     CHECK(run.fault == "");
+    Legs& legs = arguments.motion.planner.window_cells < 256 ? in_small_windows : in_windows;
+    legs.searched += run.searched_legs;
+    legs.slow += run.slow_legs;
     return run;
 }
 
@@ -89,6 +100,9 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
         }
     }
     CAPTURE(compared, slow_in_float);
+    CAPTURE(in_small_windows.slow, in_small_windows.searched, in_windows.slow, in_windows.searched);
+    CHECK(200 * in_windows.slow <= 200 + in_windows.searched); // no plan was found: more slowly, by an older one
+    CHECK(40 * in_small_windows.slow <= in_small_windows.searched);
     CHECK(4 * compared > rounds(40, 2000)); // else nothing is compared
     CHECK(slow_in_float <= 1 + compared / 10);
 }

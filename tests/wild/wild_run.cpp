@@ -9,6 +9,7 @@
 #include "host_sim/planning/planned_path.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_watch.hpp"
+#include "host_sim/run/run_machine.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,12 +52,11 @@ double from_rest_to_rest(const MachineSettings& machine, double length_mm, doubl
 
 WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
     WildRun run;
-    const MachineDescription machine = read_machine_file(arguments.machine);
+    const RunMachine stated(read_machine_file(arguments.machine), arguments.path.format->is_gcode());
+    const MachineDescription& machine = stated.machine;
     try {
         const PlanFigures figures = plan_figures(arguments.path.scalar, machine);
-        const auto axes = static_cast<std::size_t>(machine.settings.axes);
-        PathInput input(arguments.path, PathUse::executed,
-                        {.axes = {machine.axis_name.begin(), machine.axis_name.begin() + axes}});
+        PathInput input(arguments.path, PathUse::executed, stated.path());
         OptimumTime optimum(machine.settings, figures.direction_jump, arguments.path.scalar);
         PathWatch watch(input.name(), {.optimum = &optimum});
         const auto path = plan_path(input, machine, watch, arguments.motion.planner);
@@ -95,6 +95,8 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         const PlannedPath::Statistics statistics = path->statistics();
         run.most_s =
             from_rest_to_rest(machine.settings, statistics.length_mm, static_cast<double>(statistics.curve_segments));
+        run.searched_legs = statistics.searched_legs;
+        run.slow_legs = statistics.slow_legs;
         run.short_window = statistics.window_limited.value_or(0) > 0;
     } catch (const InputError& error) {
         run.refused = error.what();

@@ -177,8 +177,9 @@ CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLi
                                  larger(R(from.third_spread[1]), R(to.third_spread[0]))};
         const CellUse<R> use = use_of(passage, limits.acceleration_mm_s2[k], limits.jerk_mm_s3[k]);
         for (const auto limit : {&CellUse<R>::acceleration, &CellUse<R>::jerk}) {
-            (most.*limit).most = larger((most.*limit).most, (use.*limit).most);
-            (most.*limit).ends = larger((most.*limit).ends, (use.*limit).ends);
+            if ((use.*limit).most > (most.*limit).most) {
+                most.*limit = use.*limit;
+            }
         }
     }
     return most;

@@ -10,7 +10,7 @@ namespace splinefeed {
 template <Floating R>
 struct LimitUse {
     R most{}; ///< an upper bound of the use anywhere
-    R ends{}; ///< the larger one of those at the ends
+    R ends{}; ///< the larger one of those at the ends, of the axis with the largest use
 };
 
 template <Floating R>

@@ -39,8 +39,10 @@ public:
     void clear() noexcept override;
 
     /// How often a leg could not be planned as fast as possible. Such a leg is travelled more slowly, within all
-    /// limits.
+    /// limits, or as an older plan says.
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return plan_.slow_legs(); }
+    /// How many legs were planned, a leg that is planned again once more; without straight legs.
+    [[nodiscard]] std::uint64_t searched_legs() const noexcept { return plan_.searched_legs(); }
 
 private:
     using MotionPlan<S>::profile_segment_;

@@ -289,7 +289,8 @@ void lead_over(std::span<LegNode<R>> nodes, std::size_t known, R from) noexcept 
             const R bend = theta2 * difference + R(2) * theta1 * rise;
             middle = larger(middle - R(0.5) * half * half * bend, R(least_middle) * middle);
         }
-        node.middle_sq = smaller(middle, R(0.95) * node.cap_sq);
+        const R below_cap = larger(R(0.95) * node.cap_sq, smaller(known_sq(i), R(0.9999) * node.cap_sq));
+        node.middle_sq = smaller(middle, below_cap);
         before = here;
         s += node.length_mm;
     }

@@ -127,6 +127,9 @@ void LegPlan<R>::know(R middle_sq) noexcept {
 template <Floating R>
 typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
     Proof proof;
+    // Behind a start in motion that uses all of a limit, the plan in force may be the only motion there is: nothing is
+    // taken from its limits before it exceeds them.
+    const std::size_t near_start = rests_ ? 0 : known_ / 4;
     for (std::size_t i = rests_ ? 1 : 0; i + 1 < cells_; ++i) {
         LegNode<R>& node = nodes_[i];
         const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
@@ -134,7 +137,7 @@ typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
         proof.kept = proof.kept && (i == 0 || !(R(proved<R>) * node.middle_sq > node.cap_sq));
         // Where the use at the ends is less than their share, a smaller share changes nothing until it is less, too.
         const auto less = [&](R& share, const LimitUse<R>& used) {
-            if (!(used.most <= from)) {
+            if (!(used.most <= (i < near_start ? R(proved<R>) : from))) {
                 proof.kept = false;
                 if (tighten) {
                     share = larger(smaller(share, used.ends), R(most_fall) * share) /

@@ -109,10 +109,8 @@ typename LegSolver<R>::Row LegSolver<R>::row_at(std::size_t i) const noexcept {
     row.excess = infeasibility_ * node.excess;
     row.wider = R(1) + row.excess;
     row.acceleration_share =
-        i > 0 ? smaller(node_[i - 1].acceleration_share, node.acceleration_share) : node.acceleration_share;
-    // The state of a start in motion is given: less of a limit is asked for at the end of its cell alone.
-    row.share =
-        Pair<R>{left ? node_[i - 1].jerk_share : no_row<R>, right ? (i > 0 ? node.jerk_share : R(1)) : no_row<R>};
+        i > 0 ? smaller(node_[i - 1].acceleration_share, node.acceleration_share) : no_row<R>; // a given state
+    row.share = Pair<R>{left ? node_[i - 1].jerk_share : no_row<R>, right ? node.jerk_share : no_row<R>};
     row.curvature = Pair<R>{i > 0 ? node_[i - 1].curvature : R(0), node.curvature};
     return row;
 }

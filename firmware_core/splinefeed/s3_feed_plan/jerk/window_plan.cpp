@@ -65,6 +65,7 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
         search = leg_.step();
     }
     searching_ = false;
+    ++searched_legs_;
     if (search == Search::none) {
         ++slow_legs_;
         if (window_->node(leg_first_).b > 0.0 || !leg_.slow()) {
@@ -139,11 +140,14 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
             planned_ = end;
             at_ = stops ? end : at_ + final_cells(at_, end - at_);
             hops_ = 1;
+            goes_on_ = false;
         } else if (rests) {
+            goes_on_ = false;
             at_ = rest_to_rest(at_, end);
-        } else { // the old plan goes on, and from a little farther there may be another
+        } else { // the old plan goes on, and from a little farther there may be another; else it goes on to its end
             SPLINEFEED_ASSERT(at_ == first_ && planned_ > first_);
-            at_ += larger<std::size_t>(1, (planned_ - first_) / 8);
+            at_ = goes_on_ ? planned_ : at_ + larger<std::size_t>(1, (planned_ - first_) / 8);
+            goes_on_ = true;
             complete_ = false;
             break;
         }

@@ -70,7 +70,9 @@ public:
     /// step of a search is as many as the leg has cells.
     bool run(WorkBudget& work) noexcept;
 
-    /// How often a leg could not be planned as fast as possible.
+    /// How often a leg was searched to its end.
+    [[nodiscard]] std::uint64_t searched_legs() const noexcept { return searched_legs_; }
+    /// How often such a leg could not be planned as fast as possible.
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
 
 private:
@@ -89,7 +91,9 @@ private:
     std::size_t committed_ = 0;
     std::size_t planned_ = 0;
     std::size_t hops_ = 1; // cells that are passed from standstill to standstill if no plan is found; doubled each time
+    std::uint64_t searched_legs_ = 0;
     std::uint64_t slow_legs_ = 0;
+    bool goes_on_ = false; // by an old plan, because no new one was found
     bool running_ = false;
     bool searching_ = false; // in leg_
     bool ended_ = false;
