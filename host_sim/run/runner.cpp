@@ -150,6 +150,18 @@ bool finds_help(const RunArguments& arguments, const PathInput& input, const Sum
     return arguments.helps && arguments.target == "sim" && input.repeatable() && summary.optimum_time_s && is_told;
 }
 
+void find_help(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Motion& motion,
+               std::optional<std::uint64_t> waypoints, Summary& summary) {
+    summary.what_would_help = what_would_help({.path = &arguments.path,
+                                               .machine = &of,
+                                               .begins = &begins,
+                                               .planner = arguments.motion.planner,
+                                               .standing_s = motion.stood_s(),
+                                               .waypoints = waypoints,
+                                               .quiet = arguments.motion.quiet},
+                                              summary);
+}
+
 /// Tells how it ended. Returns the exit status.
 int conclude(const RunArguments& arguments, Summary summary, const std::string& stopped) {
     if (arguments.result != nullptr) {
@@ -237,14 +249,7 @@ int run(const RunArguments& arguments) {
     outputs.commit();
     Summary summary = motion.summary();
     if (finds_help(arguments, input, summary)) {
-        summary.what_would_help = what_would_help({.path = &arguments.path,
-                                                   .machine = &of,
-                                                   .begins = &motion_arguments.begins,
-                                                   .planner = arguments.motion.planner,
-                                                   .standing_s = motion.stood_s(),
-                                                   .waypoints = waypoints,
-                                                   .quiet = arguments.motion.quiet},
-                                                  summary);
+        find_help(arguments, of, motion_arguments.begins, motion, waypoints, summary);
     }
     if (!signals) {
         summary.planning_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -84,6 +84,17 @@ inline bool items_valid(const Json& value, const Json& items) {
     return true;
 }
 
+inline std::ptrdiff_t letters(const std::string& text) {
+    return std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; // not the rest of one
+    });
+}
+
+/// A bound, by a word that begins with min or max.
+inline bool within(const std::string& word, const Json& amount, const Json& bound) {
+    return word.rfind("min", 0) == 0 ? amount >= bound : amount <= bound;
+}
+
 inline bool word_holds(const Json& value, const Json& schema, const std::string& word, const Json& says) {
     const bool number = value.is_number();
     if (word == "type") {
@@ -96,25 +107,19 @@ inline bool word_holds(const Json& value, const Json& schema, const std::string&
         return value == says;
     }
     if (word == "minimum" || word == "maximum") {
-        return !number || (word == "minimum" ? value >= says : value <= says);
+        return !number || within(word, value, says);
     }
     if (word == "multipleOf") {
         return !number || std::fmod(value.get<double>(), says.get<double>()) == 0.0;
     }
     if (word == "minLength" || word == "maxLength") {
-        const auto is_letter = [](char c) {
-            return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; // not the rest of one
-        };
-        const auto letters = value.is_string() ? std::count_if(value.get_ref<const std::string&>().begin(),
-                                                               value.get_ref<const std::string&>().end(), is_letter)
-                                               : 0;
-        return !value.is_string() || (word == "minLength" ? letters >= says : letters <= says);
+        return !value.is_string() || within(word, letters(value.get<std::string>()), says);
     }
     if (word == "pattern") {
         return !value.is_string() || matches(value.get<std::string>(), says.get<std::string>());
     }
     if (word == "minItems" || word == "maxItems") {
-        return !value.is_array() || (word == "minItems" ? value.size() >= says : value.size() <= says);
+        return !value.is_array() || within(word, value.size(), says);
     }
     if (word == "items") {
         return !value.is_array() || items_valid(value, says);
