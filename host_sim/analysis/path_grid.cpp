@@ -257,14 +257,10 @@ bool PathGrid::jumps(const PerAxis<double>& in, const PerAxis<double>& out, doub
     return !(in_sq > 0.0) || !(out_sq > 0.0) || jump > direction_jump_ + slack;
 }
 
-void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInterval>& out) {
+// Bezier to powers: binomial coefficient times forward difference.
+void PathGrid::take_powers(const CurveSegment<double>& segment, PerAxis<double>& start, PerAxis<double>& end) {
     degree_ = static_cast<unsigned>(segment.degree);
     size_mm_ = 0.0;
-    // Direction of the first and last leg of the control polygon; zero where that is next to nothing.
-    PerAxis<double> start{};
-    PerAxis<double> end{};
-    double start_sq = 0.0;
-    double end_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         PerDegree<double> control{};
         for (unsigned i = 0; i <= degree_; ++i) {
@@ -272,9 +268,6 @@ void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInter
         }
         start[k] = control[1] - control[0];
         end[k] = control[degree_] - control[degree_ - 1];
-        start_sq += start[k] * start[k];
-        end_sq += end[k] * end[k];
-        // Bezier to powers: binomial coefficient times forward difference.
         double binomial = std::ldexp(1.0, segment.unit_log2);
         for (unsigned i = 0; i <= degree_; ++i) {
             size_mm_ = std::max(size_mm_, std::fabs(std::ldexp(control[i], segment.unit_log2)));
@@ -285,34 +278,45 @@ void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInter
             }
         }
     }
-    const auto normalise = [this](PerAxis<double>& direction, double norm_sq) {
-        const double norm = std::sqrt(norm_sq);
-        for (unsigned k = 0; k < axes_; ++k) {
-            direction[k] = norm < negligible_units_ ? 0.0 : direction[k] / norm;
-        }
-    };
-    normalise(start, start_sq);
-    normalise(end, end_sq);
-    const double programmed = segment.block_feed_mm_s();
-    const double feed = programmed > 0.0 ? std::min(programmed, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
+}
+
+void PathGrid::take_feed(double programmed_mm_s) {
+    const double feed =
+        programmed_mm_s > 0.0 ? std::min(programmed_mm_s, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
     feed_sq_ = feed * feed;
     bool linear_moves = false;
-    for (unsigned k = 0; k < axes_; ++k) {
-        for (unsigned i = 1; i <= degree_; ++i) {
-            linear_moves = linear_moves || (!machine_.axis[k].rotary && power_[k][i] != 0.0);
-        }
-    }
-    fastest_sq_ = linear_moves ? feed_sq_ + turning_sq_ : feed_sq_;
     double chord_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         double chord = 0.0;
         for (unsigned i = 1; i <= degree_; ++i) {
+            linear_moves = linear_moves || (!machine_.axis[k].rotary && power_[k][i] != 0.0);
             chord += power_[k][i];
         }
         chord_sq += chord * chord;
     }
+    fastest_sq_ = linear_moves ? feed_sq_ + turning_sq_ : feed_sq_;
     const double quarter = feed_sq_ / (8.0 * softest_mm_s2_);
     least_level_ = chord_sq > quarter * quarter ? least_level_of_long : least_level;
+}
+
+void PathGrid::normalise(PerAxis<double>& direction) const {
+    double norm_sq = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        norm_sq += direction[k] * direction[k];
+    }
+    const double norm = std::sqrt(norm_sq);
+    for (unsigned k = 0; k < axes_; ++k) {
+        direction[k] = norm < negligible_units_ ? 0.0 : direction[k] / norm;
+    }
+}
+
+void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInterval>& out) {
+    PerAxis<double> start{};
+    PerAxis<double> end{};
+    take_powers(segment, start, end);
+    normalise(start);
+    normalise(end);
+    take_feed(segment.block_feed_mm_s());
     stop_ = any_ && (stop_ || jumps(last_direction_, start, direction_error_));
     append_pieces(out);
     any_ = true;

@@ -56,6 +56,12 @@ private:
         double cap_sq = 0.0;
     };
 
+    /// @param start,end  first and last leg of the control polygon
+    void take_powers(const CurveSegment<double>& segment, PerAxis<double>& start, PerAxis<double>& end);
+    /// @pre take_powers(). 0: the machine's feed
+    void take_feed(double programmed_mm_s);
+    /// Zero where it is next to nothing.
+    void normalise(PerAxis<double>& direction) const;
     void append_pieces(std::vector<PathInterval>& out);
     [[nodiscard]] Node node(double u) const noexcept;
     [[nodiscard]] double acceleration(unsigned k, double slope, bool speeding) const noexcept;

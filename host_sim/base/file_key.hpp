@@ -19,7 +19,7 @@ enum class KeyKind : std::uint8_t {
     choices, ///< a list of `names`
     table,   ///< of the keys `inside`
     tables,  ///< a list of such tables, `low` to `high` of them
-    by_axis, ///< such a table for each axis, below the axis's name
+    by_axis, ///< such a table for each axis, below the axis's name, a small or a capital letter
     line,    ///< a line of a chip: its name, its offset, or such a table with both
     form     ///< what `form` says, in JSON schema
 };
@@ -49,6 +49,14 @@ struct FileTable {
     /// @pre there is such a key
     [[nodiscard]] const FileKey& row(std::string_view key) const;
 };
+
+/// The whole number of a row's bound: of 64 bits, whose largest one `double` does not hold.
+[[nodiscard]] constexpr std::int64_t whole_bound(double bound) {
+    constexpr double beyond = 9223372036854775808.0;
+    return bound >= beyond    ? std::numeric_limits<std::int64_t>::max()
+           : bound <= -beyond ? std::numeric_limits<std::int64_t>::min()
+                              : static_cast<std::int64_t>(bound);
+}
 
 // Rows. `sentence` comes last.
 constexpr FileKey text_key(std::string_view key, std::string_view sentence) {

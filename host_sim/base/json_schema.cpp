@@ -12,29 +12,24 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double most_digits = 9e15; // beyond, double has no whole numbers
-
 /// A number without a fraction as JSON has whole numbers.
 Json json_number(double value) {
-    return std::fabs(value) < most_digits && std::trunc(value) == value ? Json(static_cast<std::int64_t>(value))
-                                                                        : Json(value);
+    return std::trunc(value) == value ? Json(whole_bound(value)) : Json(value);
 }
 
 Json with_range(Json schema, const FileKey& row, const char* least, const char* most) {
-    if (row.low > -most_digits) {
+    if (std::isfinite(row.low)) {
         schema[least] = json_number(row.low);
     }
-    if (row.high < most_digits) {
+    if (std::isfinite(row.high)) {
         schema[most] = json_number(row.high);
     }
     return schema;
 }
 
 Json text_of(const FileKey& row) {
-    Json schema{{"type", "string"}, {"minLength", 1}};
-    if (row.high < most_digits) {
-        schema["maxLength"] = json_number(row.high);
-    }
+    Json schema = with_range({{"type", "string"}}, row, "minLength", "maxLength");
+    schema["minLength"] = 1;
     return schema;
 }
 
@@ -59,7 +54,7 @@ Json value_of(const FileKey& row) {
     case KeyKind::tables: return list_of(schema_of(*row.inside), row);
     case KeyKind::by_axis:
         return {{"type", "object"},
-                {"patternProperties", {{"^[xyzabc]$", schema_of(*row.inside)}}},
+                {"patternProperties", {{"^[xyzabcXYZABC]$", schema_of(*row.inside)}}},
                 {"additionalProperties", false}};
     case KeyKind::line:
         return {{"anyOf", Json::array({value_of(row.inside->row("name")), value_of(row.inside->row("offset")),

@@ -73,8 +73,19 @@ bool TomlChecker::flag(const toml::node& node, std::string_view key) const {
     return *value;
 }
 
+std::optional<std::int64_t> TomlChecker::whole_of(const toml::node& node) {
+    const auto number = node.value_exact<double>();
+    if (!number) {
+        return node.value_exact<std::int64_t>();
+    }
+    constexpr double beyond = 9223372036854775808.0; // of 64 bits
+    return *number == std::trunc(*number) && std::fabs(*number) < beyond
+               ? std::optional(static_cast<std::int64_t>(*number))
+               : std::nullopt;
+}
+
 std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, WholeRange range) const {
-    const auto value = node.value_exact<std::int64_t>();
+    const auto value = whole_of(node);
     if (!value || *value < range.low || *value > range.high) {
         fail_type(node, key, fmt::format("a whole number from {} to {}", range.low, range.high));
     }
@@ -97,12 +108,8 @@ double TomlChecker::number(const toml::node& node, std::string_view key, const N
     return *value;
 }
 
-std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view key, double most_ms) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !(*value >= 0.0 && *value <= most_ms)) {
-        fail_type(node, key, fmt::format("a number from 0 to {} ms", most_ms));
-    }
-    return static_cast<std::uint32_t>(std::lround(*value * us_per_ms));
+std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view key, const FileKey& row) const {
+    return static_cast<std::uint32_t>(std::lround(number(node, key, {row.low, row.high, row.unit}) * us_per_ms));
 }
 
 std::size_t TomlChecker::choice(const toml::node& node, std::string_view key,
@@ -175,7 +182,7 @@ const toml::node& TomlChecker::required(const toml::table& table, std::string_vi
 void TomlChecker::take_ms(const toml::table& table, const FileTable& keys, std::string_view key,
                           std::uint32_t& out_us) const {
     if (const toml::node* node = table.get(key)) {
-        out_us = microseconds(*node, key, keys.row(key).high);
+        out_us = microseconds(*node, key, keys.row(key));
     }
 }
 

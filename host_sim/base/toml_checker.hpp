@@ -8,6 +8,7 @@
 #include "splinefeed/base/assertion.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,11 +68,13 @@ public:
     /// A text that is not empty.
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
     [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const;
+    /// A number without a fraction, also one that is written with a point: 2.0. Nothing: it is none, or does not fit.
+    [[nodiscard]] static std::optional<std::int64_t> whole_of(const toml::node& node);
     [[nodiscard]] std::int64_t whole(const toml::node& node, std::string_view key, WholeRange range) const;
     [[nodiscard]] double finite(const toml::node& node, std::string_view key) const;
     [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
-    /// Milliseconds, possibly with a fraction, as whole microseconds.
-    [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, double most_ms) const;
+    /// Milliseconds, possibly with a fraction, as whole microseconds, in the range of the row.
+    [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, const FileKey& row) const;
     /// Index of the name in the list.
     [[nodiscard]] std::size_t choice(const toml::node& node, std::string_view key,
                                      std::span<const std::string_view> names) const;
@@ -111,7 +114,7 @@ public:
 
     [[nodiscard]] static WholeRange whole_range(const FileKey& row) {
         SPLINEFEED_ASSERT(row.kind == KeyKind::whole);
-        return {static_cast<std::int64_t>(row.low), static_cast<std::int64_t>(row.high)};
+        return {whole_bound(row.low), whole_bound(row.high)};
     }
 
 private:

@@ -234,55 +234,26 @@ void take_path(Job& job, const CLI::App& command, const Typed& typed) {
     }
 }
 
-} // namespace
+/// What is typed without a command, and what applies to all of them.
+struct General {
+    std::string page;
+    bool completion = false;
+};
 
-std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    Job job;
-    Typed typed;
-    CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
+void describe_general(CLI::App& app, General& general) {
     app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
-    std::string page;
-    app.add_option("--man", page, "COMMAND or splinefeed: print its man page");
-    bool completion = false;
-    app.add_flag("--completion", completion, "print the completion of bash: source <(splinefeed --completion)")
+    app.add_option("--man", general.page, "COMMAND or splinefeed: print its man page");
+    app.add_flag("--completion", general.completion, "print the completion of bash: source <(splinefeed --completion)")
         ->disable_flag_override();
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses +
                " check: 1 the program has problems.");
     app.require_subcommand(0, 1);
     app.allow_extras();
-    describe_commands(app, job, typed);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        const auto chosen = app.get_subcommands();
-        return Answer{chosen.empty() ? app.help() : chosen.front()->help("splinefeed")};
-    } catch (const CLI::CallForVersion& version) {
-        return Answer{std::string(version.what()) + "\n"};
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(explained(error));
-    }
-    if (!page.empty() || completion) {
-        return Answer{completion ? bash_completion(app) : man_page(app, page)};
-    }
-    const auto chosen = app.get_subcommands();
-    if (const std::vector<std::string> words = app.remaining(); chosen.empty() || !words.empty()) {
-        refuse_without_command(words, chosen.empty() ? "run" : chosen.front()->get_name());
-    }
-    const CLI::App& command = *chosen.front();
-    refuse_short_names(command, {argv, static_cast<std::size_t>(argc)});
-    refuse_extras(command, job);
-    job.run.machine = typed.machine.value_or("");
-    if (typed.machine && job.run.machine.empty()) {
-        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
-    }
-    if (takes_no_input(command)) {
-        job.command = command.get_name() == "drive"  ? Command::drive
-                      : command.get_name() == "link" ? Command::link
-                                                     : Command::serve;
-        job.link.machine = job.serve.machine = job.run.machine;
-        return job;
-    }
+}
+
+/// Options of a command that has an input.
+std::variant<Job, Answer> take_input(Job& job, const CLI::App& command, Typed& typed) {
     if (command.get_name() == "schema") {
         return Answer{json_schema(job.run.path.input)};
     }
@@ -306,6 +277,49 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     }
     take_path(job, command, typed);
     return job;
+}
+
+} // namespace
+
+std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
+    Job job;
+    Typed typed;
+    General general;
+    CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
+    describe_general(app, general);
+    describe_commands(app, job, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = app.get_subcommands();
+        return Answer{chosen.empty() ? app.help() : chosen.front()->help("splinefeed")};
+    } catch (const CLI::CallForVersion& version) {
+        return Answer{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(explained(error));
+    }
+    if (!general.page.empty() || general.completion) {
+        return Answer{general.completion ? bash_completion(app) : man_page(app, general.page)};
+    }
+    const auto chosen = app.get_subcommands();
+    if (const std::vector<std::string> words = app.remaining(); chosen.empty() || !words.empty()) {
+        refuse_without_command(words, chosen.empty() ? "run" : chosen.front()->get_name());
+    }
+    const CLI::App& command = *chosen.front();
+    refuse_short_names(command, {argv, static_cast<std::size_t>(argc)});
+    refuse_extras(command, job);
+    job.run.machine = typed.machine.value_or("");
+    if (typed.machine && job.run.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
+    if (takes_no_input(command)) {
+        job.command = command.get_name() == "drive"  ? Command::drive
+                      : command.get_name() == "link" ? Command::link
+                                                     : Command::serve;
+        job.link.machine = job.serve.machine = job.run.machine;
+        return job;
+    }
+    return take_input(job, command, typed);
 }
 
 } // namespace splinefeed::host

@@ -4,6 +4,7 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/axis_name.hpp"
 #include "host_sim/config/gpio_map_keys.hpp"
 #include "host_sim/config/gpio_map_lines.hpp"
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 
 namespace splinefeed::host {
 
@@ -49,8 +51,8 @@ public:
             input(*table);
         }
         if (const toml::node* node = root.get("home")) {
-            for (const auto& [key, value] : check_.table(*node, "home")) {
-                home(value, axis_named(value, key.str(), fmt::format("[home.{}]", key.str())));
+            for (const auto& [k, value] : by_axis(check_.table(*node, "home"), "home")) {
+                home(*value, k);
             }
         }
         if (const toml::node* node = root.get("thread")) {
@@ -62,12 +64,25 @@ public:
 private:
     // Which axis of the machine it is.
     [[nodiscard]] std::size_t axis_named(const toml::node& node, std::string_view name, std::string_view where) const {
-        const auto found = std::find(axis_names_.begin(), axis_names_.end(), name);
+        const auto found = std::find(axis_names_.begin(), axis_names_.end(), axis_name_of(name));
         if (found == axis_names_.end()) {
             check_.fail(node, fmt::format("{}: the machine has no axis {}; its axes are {}", where, in_quotes(name),
                                           listed(axis_names_)));
         }
         return static_cast<std::size_t>(found - axis_names_.begin());
+    }
+
+    /// The tables [OF.x], by the axes of the machine.
+    [[nodiscard]] std::map<std::size_t, const toml::node*> by_axis(const toml::table& tables,
+                                                                   std::string_view of) const {
+        std::map<std::size_t, const toml::node*> out;
+        for (const auto& [key, value] : tables) {
+            const std::string where = fmt::format("[{}.{}]", of, key.str());
+            if (!out.emplace(axis_named(value, key.str(), where), &value).second) {
+                check_.fail(value, fmt::format("{} is there with a small and with a capital letter; give one", where));
+            }
+        }
+        return out;
     }
 
     void axes(const toml::table& root) {
@@ -76,18 +91,15 @@ private:
             check_.fail(*node, "[[axis]] is of a machine file; here it is [axis.x], with the axis in its name");
         }
         static const toml::table none;
-        const toml::table& axes = node != nullptr ? check_.table(*node, "axis") : none;
-        for (const auto& [key, value] : axes) {
-            static_cast<void>(axis_named(value, key.str(), fmt::format("[axis.{}]", key.str())));
-        }
+        const auto axes = by_axis(node != nullptr ? check_.table(*node, "axis") : none, "axis");
         for (std::size_t k = 0; k < axis_names_.size(); ++k) { // in the machine's order, and with it the bits
-            const toml::node* const given = axes.get(axis_names_[k]);
-            if (given == nullptr) {
+            const auto given = axes.find(k);
+            if (given == axes.end()) {
                 check_.fail_file(fmt::format("there is no [axis.{}]; each axis of the machine needs one, with its step "
                                              "and direction",
                                              axis_names_[k]));
             }
-            axis(check_.table(*given, fmt::format("axis.{}", axis_names_[k])), k);
+            axis(check_.table(*given->second, fmt::format("axis.{}", axis_names_[k])), k);
         }
     }
 

@@ -40,7 +40,10 @@ inline constexpr FileKey map_input_keys[] = {
     whole_key("debounce_us", 0, 100000, "A level counts after it has lasted so long; default 1000, of an e-stop 0.",
               "us"),
 };
-inline constexpr FileTable map_input_table{"[[input]]", map_input_keys, {}};
+inline constexpr FileTable map_input_table{
+    "[[input]]", map_input_keys,
+    R"({"if": {"properties": {"role": {"enum": ["limit", "home"]}}}, "then": {"required": ["axis"]},
+        "else": {"not": {"required": ["axis"]}}})"};
 
 inline constexpr double farthest_home_mm = 1048576.0;
 inline constexpr FileKey home_keys[] = {

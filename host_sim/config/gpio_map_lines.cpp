@@ -44,7 +44,7 @@ GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_vi
 
 GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::string_view key) const {
     Wanted wanted{default_chip_, {}};
-    if (node.is_integer()) {
+    if (TomlChecker::whole_of(node)) {
         wanted.line.offset = offset(node, key);
         return wanted;
     }

@@ -5,6 +5,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/axis_name.hpp"
 #include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/machine_keys.hpp"
 #include "host_sim/config/program_lines_section.hpp"
@@ -149,7 +150,7 @@ private:
     void motors(const toml::table& table, StepMotors& motors) const {
         if (const toml::node* count = table.get("motors")) {
             const WholeRange range = TomlChecker::whole_range(axis_table.row("motors"));
-            const auto value = count->value_exact<std::int64_t>();
+            const auto value = TomlChecker::whole_of(*count);
             if (!value || *value < range.low || *value > range.high) {
                 check_.fail(*count, fmt::format("motors must be {} or {}", range.low, range.high));
             }
@@ -206,10 +207,7 @@ private:
         if (name == nullptr) {
             check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
         }
-        std::string letter = check_.text(*name, "name");
-        if (letter.size() == 1 && letter[0] >= 'A' && letter[0] <= 'Z') {
-            letter[0] = static_cast<char>(letter[0] - 'A' + 'a'); // as in the header of waypoints
-        }
+        const std::string letter = axis_name_of(check_.text(*name, "name"));
         if (std::find(std::begin(axis_name_letters), std::end(axis_name_letters), letter) ==
             std::end(axis_name_letters)) {
             check_.fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));

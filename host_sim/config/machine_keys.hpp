@@ -66,7 +66,10 @@ inline constexpr FileKey step_line_keys[] = {
     step_time_key("direction_hold_us", "From the end of a pulse to a change of direction; default 5."),
     flag_key("step_on_edge", "Each edge is a step; default false."),
 };
-inline constexpr FileTable step_line_table{"[step]", step_line_keys, {}};
+inline constexpr FileTable step_line_table{
+    "[step]", step_line_keys,
+    R"({"dependencies": {"tick_us": {"properties": {"engine": {"const": "fixed-rate"}, "tick_us": {"multipleOf": 0.25}},
+                                     "required": ["engine"]}}})"};
 
 inline constexpr FileKey switched_keys[] = {
     needed(line_key("line", "The line.")),
@@ -96,7 +99,7 @@ inline constexpr FileKey spindle_keys[] = {
 inline constexpr FileTable spindle_table{
     "[spindle]", spindle_keys,
     R"({"dependencies": {"enable": ["spin_up_s"], "reverse": ["enable"], "at_speed": ["enable"],
-        "spin_up_s": ["enable"], "spin_down_s": ["enable"]}})"};
+        "spin_up_s": ["enable"], "spin_down_s": ["enable"], "vfd": {"not": {"required": ["enable"]}}}})"};
 
 inline constexpr FileKey chip_keys[] = {
     needed(form_key("chip", line_keys[0].form, "The chip of lines that name none, like /dev/gpiochip0.")),
@@ -152,15 +155,17 @@ inline constexpr FileKey input_keys[] = {
 inline constexpr FileTable input_table{
     "[[input]]", input_keys,
     R"({"oneOf": [{"required": ["line"], "not": {"anyOf": [{"required": ["module"]}, {"required": ["coil"]}, {"required": ["input"]}]}},
-        {"required": ["module", "coil"], "not": {"required": ["line"]}},
-        {"required": ["module", "input"], "not": {"required": ["line"]}}]})"};
+        {"required": ["module", "coil"], "not": {"anyOf": [{"required": ["line"]}, {"required": ["bias"]}]}},
+        {"required": ["module", "input"], "not": {"anyOf": [{"required": ["line"]}, {"required": ["bias"]}]}}]})"};
 
 inline constexpr FileKey axis_keys[] = {
     needed(form_key("name", R"({"enum": ["x", "y", "z", "a", "b", "c", "X", "Y", "Z", "A", "B", "C"]})",
                     "x, y, z, a, b or c.")),
     choice_key("kind", axis_kinds, "linear (default) or rotary: degrees where the keys say mm."),
-    form_key("travel_mm", R"({"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2})",
-             "Soft limits, checked before anything moves: [lowest, highest]."),
+    form_key(
+        "travel_mm",
+        R"({"type": "array", "items": {"type": "number", "minimum": -1048576, "maximum": 1048576}, "minItems": 2, "maxItems": 2})",
+        "Soft limits, checked before anything moves: [lowest, highest]."),
     core_key(axis_numbers, "travel_end_zone_mm", "This near to its soft limits the axis has the next limit."),
     core_key(axis_numbers, "travel_end_velocity_mm_s", "Limit of the velocity near the soft limits."),
     core_key(axis_numbers, "max_velocity_mm_s", "Limit of the velocity."),
@@ -181,7 +186,9 @@ inline constexpr FileKey axis_keys[] = {
 inline constexpr FileTable axis_table{
     "[[axis]]", axis_keys,
     R"({"dependencies": {"travel_end_zone_mm": ["travel_end_velocity_mm_s", "travel_mm"],
-        "travel_end_velocity_mm_s": ["travel_end_zone_mm"]}})"};
+        "travel_end_velocity_mm_s": ["travel_end_zone_mm"]},
+        "if": {"properties": {"motors": {"const": 2}}, "required": ["motors"]},
+        "then": {"properties": {"invert_direction": {"minItems": 2}}}, "else": {"properties": {"invert_direction": {"maxItems": 1}}}})"};
 
 inline constexpr FileKey machine_keys[] = {
     text_key("name", "Of the machine."),

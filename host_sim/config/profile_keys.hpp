@@ -44,15 +44,19 @@ inline constexpr std::array<std::string_view, hal::modbus::drive_commands> comma
     "enable",     "disable", "fault_reset", "start_move", "halt", "resume",
     "quick_stop", "home",    "forward",     "reverse",    "stop"};
 
-inline constexpr double any_low = -9.2e18; // a register of 64 bits; the reader knows that of the field
-inline constexpr double any_high = 9.2e18;
+inline constexpr double any_low = -9223372036854775808.0; // 64 bits; the reader knows the field's own
+inline constexpr double any_high = 9223372036854775808.0;
 inline constexpr double highest_mask = 0xFFFFFFFF; // masks are of the low 32 bits at most
 
 inline constexpr FileKey link_keys[] = {
-    needed(
-        {.key = "wires", .kind = KeyKind::choices, .sentence = "The lines that the drive has.", .names = wire_names}),
+    needed({.key = "wires",
+            .kind = KeyKind::choices,
+            .sentence = "The lines that the drive has.",
+            .low = 1,
+            .names = wire_names}),
     needed(form_key("functions",
-                    R"({"type": "array", "items": {"enum": [3, 6, 16, 23]}, "contains": {"const": 3}, "minItems": 2})",
+                    R"({"type": "array", "items": {"enum": [3, 6, 16, 23]},
+                        "allOf": [{"contains": {"const": 3}}, {"contains": {"enum": [6, 16]}}]})",
                     "Function codes that the drive has: 3 reads, 6 writes one register, 16 several, 23 both.")),
     form_key("unit", R"({"anyOf": [{"type": "integer", "minimum": 1, "maximum": 247}, {"const": 255}]})",
              "Factory setting of the unit number; 255 with tcp alone; default 1."),
@@ -62,18 +66,21 @@ inline constexpr FileKey link_keys[] = {
     number_key("silence_before_ms", 0, 1000, "ms", "Silence before a frame, besides the 3.5 characters of RTU."),
     number_key("silence_after_ms", 0, 1000, "ms", "Silence after a frame, likewise."),
     number_key("turnaround_ms", 0, 1000, "ms", "From a request to the drive's answer."),
-    number_key("response_timeout_ms", 0, 60000, "ms", "An exchange without an answer is lost then; default 100."),
+    number_key("response_timeout_ms", 0.001, 60000, "ms", "An exchange without an answer is lost then; default 100."),
     whole_key("retries", 0, 100, "How often a lost exchange is repeated; default 2."),
     whole_key("most_read_registers", 1, 125, "Most registers that are read in a frame; default 125."),
     whole_key("most_write_registers", 1, 123, "Most registers that are written in a frame; default 123."),
     whole_key("address_base", 0, 1, "1 where the manual counts registers from 1; default 0."),
     flag_key("reads_zero_until_written", "Values are valid only after the target group was written once."),
-    form_key(
-        "exchange_ms",
-        R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}})",
-        "Time of an exchange for each baud rate: [[9600, 24.9], ...]."),
+    form_key("exchange_ms",
+             R"({"type": "array", "items": {"type": "array", "minItems": 2, "maxItems": 2,
+            "items": [{"type": "integer", "minimum": 1200, "maximum": 4000000},
+                      {"type": "number", "minimum": 0, "maximum": 60000}]}})",
+             "Time of an exchange for each baud rate: [[9600, 24.9], ...]."),
 };
-inline constexpr FileTable link_table{"[link]", link_keys, {}};
+inline constexpr FileTable link_table{"[link]", link_keys,
+                                      R"({"if": {"properties": {"unit": {"const": 255}}, "required": ["unit"]},
+                                          "then": {"properties": {"wires": {"contains": {"const": "tcp"}}}}})"};
 
 inline constexpr FileKey field_keys[] = {
     choice_key("role", field_role_names, "What the program knows it as; or a name of your own."),
@@ -83,7 +90,10 @@ inline constexpr FileKey field_keys[] = {
     flag_key("signed", "Two's complement; default false."),
     choice_key("word_order", order_names, "Which register of several comes first; default high_first."),
     choice_key("byte_order", order_names, "Likewise within a register; Modbus is high_first, the default."),
-    form_key("scale", R"({"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2})",
+    form_key("scale",
+             R"({"type": "array", "minItems": 2, "maxItems": 2,
+                 "items": [{"type": "integer", "minimum": -1000000000000000, "maximum": 1000000000000000, "not": {"const": 0}},
+                           {"type": "integer", "minimum": 1, "maximum": 1000000000000000}]})",
              "[n, d]: register = physical * n / d."),
     flag_key("inverse", "register = n / (d * physical) instead."),
     choice_key("unit", unit_names, "Of the physical value; a role has its own."),
@@ -123,7 +133,11 @@ inline constexpr FileKey step_keys[] = {
     choice_key("kind", step_kind_names, "How they change; default level."),
     whole_key("duration_ms", 0, 60000, "Of a pulse; else the wait before the next step.", "ms"),
 };
-inline constexpr FileTable step_table{"a step", step_keys, {}};
+inline constexpr FileTable step_table{"a step", step_keys,
+                                      R"({"if": {"properties": {"kind": {"const": "toggle"}}, "required": ["kind"]},
+        "then": {"not": {"required": ["value"]}}, "else": {"required": ["value"]},
+        "allOf": [{"if": {"properties": {"kind": {"const": "pulse"}}, "required": ["kind"]},
+                   "then": {"properties": {"duration_ms": {"minimum": 1}}, "required": ["duration_ms"]}}]})"};
 
 inline constexpr FileKey command_keys[] = {
     needed(choice_key("name", command_names, "What it does.")),
@@ -197,6 +211,12 @@ inline constexpr FileKey profile_keys[] = {
     table_key("init", init_table, "Written once, in order, before the drive is enabled.", KeyKind::tables),
     table_key("identity", identity_table, "Checked before anything is written.", KeyKind::tables),
 };
-inline constexpr FileTable profile_table{"the profile", profile_keys, {}};
+inline constexpr FileTable profile_table{"the profile", profile_keys,
+                                         R"({"allOf": [
+        {"if": {"properties": {"states": {"const": "cia402"}}, "required": ["states"]}, "then": {"properties": {"state": {"maxItems": 0}}}},
+        {"if": {"properties": {"axes": {"minimum": 2}}, "required": ["axes"]}, "then": {"properties": {"stream": {"const": "pvt"}}}},
+        {"if": {"properties": {"stream": {"const": "blocks"}}},
+         "then": {"properties": {"motion": {"properties": {"change_on_the_fly": {"const": true}}, "required": ["change_on_the_fly"]}},
+                  "required": ["motion"]}}]})"};
 
 } // namespace splinefeed::host

@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/axis_name.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -50,8 +51,8 @@ toml::table& axis_of(toml::table& document, const std::string& setting, std::str
     if (toml::array* const axes = document.get_as<toml::array>("axis")) {
         for (toml::node& node : *axes) {
             toml::table* const axis = node.as_table();
-            names.push_back(axis != nullptr ? (*axis)["name"].value_or(std::string()) : std::string());
-            if (axis != nullptr && names.back() == name) {
+            names.push_back(axis_name_of(axis != nullptr ? (*axis)["name"].value_or(std::string()) : std::string()));
+            if (axis != nullptr && names.back() == axis_name_of(name)) {
                 return *axis;
             }
         }

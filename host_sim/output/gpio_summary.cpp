@@ -11,98 +11,36 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-template <class Of, class Each, std::size_t n>
-Json list_of(const Of& all, const WrittenKey<Each> (&keys)[n]) {
-    Json list = Json::array();
-    for (const Each& each : all) {
-        list.push_back(written(each, keys));
-    }
-    return list;
-}
-
 using Change = GpioSummary::Change;
 constexpr WrittenKey<Change> change_keys[] = {
-    {text_row("role", "As in the map file."),
-     [](const Change& change) {
-         return Json(change.role);
-     }},
-    {not_always(text_row("axis", "Of limit and home.")),
-     [](const Change& change) {
-         return change.axis.empty() ? left_out() : Json(change.axis);
-     }},
-    {flag_row("active", "Whether it acts now."),
-     [](const Change& change) {
-         return Json(change.active);
-     }},
-    {number_row("time_s", "s", "Since the run began."),
-     [](const Change& change) {
-         return Json(change.time_s);
-     }},
-    {nullable(needed(form_key("position_mm", R"({"type": "array", "items": {"type": "number"}})",
-                              "[mm] Of each axis at that time; null: not known."))),
-     [](const Change& change) {
-         return or_null(change.position_mm);
-     }},
+    text<&Change::role>("role", "As in the map file."),
+    if_any(text<&Change::axis>("axis", "Of limit and home.")),
+    flag<&Change::active>("active", "Whether it acts now."),
+    quantity<&Change::time_s>("time_s", "s", "Since the run began."),
+    or_null(formed<&Change::position_mm>("position_mm", R"({"type": "array", "items": {"type": "number"}})",
+                                         "[mm] Of each axis at that time; null: not known.")),
 };
 
 using Octave = GpioSummary::Octave;
 constexpr WrittenKey<Octave> octave_keys[] = {
-    {number_row("below_s", "s", "They came later than the octave before, and not later than this."),
-     [](const Octave& octave) {
-         return Json(octave.below_s);
-     }},
-    {count_row("edges", "How many."),
-     [](const Octave& octave) {
-         return Json(octave.edges);
-     }},
+    quantity<&Octave::below_s>("below_s", "s", "They came later than the octave before, and not later than this."),
+    count<&Octave::edges>("edges", "How many."),
 };
 
-constexpr WrittenKey<GpioSummary> gpio_keys[] = {
-    {count_row("edges", "Instants at which lines changed."),
-     [](const GpioSummary& g) {
-         return Json(g.edges);
-     }},
-    {number_row("median_late_s", "s", "Half of the edges came sooner."),
-     [](const GpioSummary& g) {
-         return Json(g.median_late_s);
-     }},
-    {number_row("p99_late_s", "s", "99 % of the edges came sooner."),
-     [](const GpioSummary& g) {
-         return Json(g.p99_late_s);
-     }},
-    {number_row("most_late_s", "s", "The latest edge."),
-     [](const GpioSummary& g) {
-         return Json(g.most_late_s);
-     }},
-    {inside_row("late", "A histogram by octaves."), [](const GpioSummary& g) { return list_of(g.late, octave_keys); },
-     [] {
-         return list_schema(written_schema(octave_keys));
-     }},
-    {number_row("schedule_slip_s", "s", "The motion took longer than planned, because edges came too late."),
-     [](const GpioSummary& g) {
-         return Json(g.schedule_slip_s);
-     }},
-    {count_row("buffer_underruns", "The plan was not ready in time: all axes slowed down."),
-     [](const GpioSummary& g) {
-         return Json(g.buffer_underruns);
-     }},
-    {number_row("began_monotonic_s", "s", "Time of the start, by CLOCK_MONOTONIC."),
-     [](const GpioSummary& g) {
-         return Json(g.began_monotonic_s);
-     }},
-    {count_row("missed", "Edges of inputs that the system lost."),
-     [](const GpioSummary& g) {
-         return Json(g.missed);
-     }},
-    {count_row("changes_left_out", "Older changes."),
-     [](const GpioSummary& g) {
-         return Json(g.changes_left_out);
-     }},
-    {inside_row("changes", "The last changes of inputs."),
-     [](const GpioSummary& g) { return list_of(g.changes, change_keys); },
-     [] {
-         return list_schema(written_schema(change_keys));
-     }},
+using Gpio = GpioSummary;
+constexpr WrittenKey<Gpio> gpio_keys[] = {
+    count<&Gpio::edges>("edges", "Instants at which lines changed."),
+    quantity<&Gpio::median_late_s>("median_late_s", "s", "Half of the edges came sooner."),
+    quantity<&Gpio::p99_late_s>("p99_late_s", "s", "99 % of the edges came sooner."),
+    quantity<&Gpio::most_late_s>("most_late_s", "s", "The latest edge."),
+    objects<&Gpio::late, octave_keys>("late", "A histogram by octaves."),
+    quantity<&Gpio::schedule_slip_s>("schedule_slip_s", "s",
+                                     "The motion took longer than planned, because edges came too late."),
+    count<&Gpio::buffer_underruns>("buffer_underruns", "The plan was not ready in time: all axes slowed down."),
+    quantity<&Gpio::began_monotonic_s>("began_monotonic_s", "s", "Time of the start, by CLOCK_MONOTONIC."),
+    count<&Gpio::missed>("missed", "Edges of inputs that the system lost."),
+    count<&Gpio::changes_left_out>("changes_left_out", "Older changes."),
+    objects<&Gpio::changes, change_keys>("changes", "The last changes of inputs."),
 };
 
 } // namespace

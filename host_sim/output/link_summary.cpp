@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace splinefeed::host {
@@ -40,7 +41,7 @@ Json drive_of(const LinkSummary::Drive& drive, bool targets) {
 }
 
 Json drive_schema() {
-    Json properties{{"address", schema_of(text_row("address", "Of the drive."))}};
+    Json properties{{"address", schema_of(text_key("address", "Of the drive."))}};
     Json required{"address", "exchanges"};
     const auto add = [&properties](const char* key, std::string_view sentence) {
         properties[key] = schema_of(count_row(key, sentence));
@@ -52,48 +53,40 @@ Json drive_schema() {
         add(loss.key, fmt::format("How often: {}.", loss.text));
         required.push_back(loss.key);
     }
-    return {{"type", "object"},
-            {"properties", std::move(properties)},
-            {"required", std::move(required)},
-            {"additionalProperties", false}};
+    return object_schema(std::move(properties), std::move(required));
 }
 
-constexpr WrittenKey<LinkSummary> summary_link_keys[] = {
-    {inside_row("drives", "Each drive."),
-     [](const LinkSummary& link) {
-         Json drives = Json::array();
-         for (const LinkSummary::Drive& drive : link.drives) {
-             drives.push_back(drive_of(drive, link.target_period_us > 0));
-         }
-         return drives;
-     },
-     [] {
-         return list_schema(drive_schema());
-     }},
-    {count_row("resumes", "How often all drives stopped together and went on."),
-     [](const LinkSummary& link) {
-         return Json(link.resumes);
-     }},
-    {number_row("clocks_known_to_s", "s", "Largest difference of the start times of two drives."),
-     [](const LinkSummary& link) {
-         return Json(link.clocks_s);
-     }},
-    {number_row("bus_time_s", "s", "Processor time of the buses."),
-     [](const LinkSummary& link) {
-         return Json(link.bus_s);
-     }},
-    {not_always(number_row("target_period_s", "s", "Between two targets.")),
-     [](const LinkSummary& link) {
-         return link.target_period_us > 0 ? Json(link.target_period_us * 1e-6) : left_out();
-     }},
-    {not_always(number_row("between_targets_mm", "mm", "Largest path error between two targets.")),
-     [](const LinkSummary& link) {
-         return link.target_period_us > 0 ? Json(link.between_targets_mm) : left_out();
-     }},
-    {not_always(number_row("latest_target_s", "s", "How late the latest target came.")),
-     [](const LinkSummary& link) {
-         return link.target_period_us > 0 ? Json(static_cast<double>(link.late_us) * 1e-6) : left_out();
-     }},
+using Links = LinkSummary;
+bool has_targets(const Links& link) {
+    return link.target_period_us > 0;
+}
+Json drives_of(const Links& link) {
+    Json drives = Json::array();
+    for (const Links::Drive& drive : link.drives) {
+        drives.push_back(drive_of(drive, has_targets(link)));
+    }
+    return drives;
+}
+Json drives_schema() {
+    return list_schema(drive_schema());
+}
+double period_of(const Links& link) {
+    return link.target_period_us * 1e-6;
+}
+std::optional<double> between_of(const Links& link) {
+    return has_targets(link) ? std::optional(link.between_targets_mm) : std::nullopt;
+}
+std::optional<double> latest_of(const Links& link) {
+    return has_targets(link) ? std::optional(static_cast<double>(link.late_us) * 1e-6) : std::nullopt;
+}
+constexpr WrittenKey<Links> summary_link_keys[] = {
+    composed<drives_of, drives_schema>("drives", "Each drive."),
+    count<&Links::resumes>("resumes", "How often all drives stopped together and went on."),
+    quantity<&Links::clocks_s>("clocks_known_to_s", "s", "Largest difference of the start times of two drives."),
+    quantity<&Links::bus_s>("bus_time_s", "s", "Processor time of the buses."),
+    if_any(quantity<period_of>("target_period_s", "s", "Between two targets.")),
+    if_any(quantity<between_of>("between_targets_mm", "mm", "Largest path error between two targets.")),
+    if_any(quantity<latest_of>("latest_target_s", "s", "How late the latest target came.")),
 };
 
 } // namespace

@@ -14,88 +14,36 @@ namespace {
 
 using Entry = LeftOutList::Entry;
 constexpr WrittenKey<Entry> left_out_keys[] = {
-    {text_row("what", "The word or line."),
-     [](const Entry& entry) {
-         return Json(entry.what);
-     }},
-    {count_row("count", "How often."),
-     [](const Entry& entry) {
-         return Json(entry.count);
-     }},
-    {count_row("line", "Where it is first."),
-     [](const Entry& entry) {
-         return Json(entry.line);
-     }},
+    text<&Entry::what>("what", "The word or line."),
+    count<&Entry::count>("count", "How often."),
+    count<&Entry::line>("line", "Where it is first."),
 };
 
 using Event = ProgramSummary::Event;
 constexpr WrittenKey<Event> event_keys[] = {
-    {number_row("t", "s", "When it happens."),
-     [](const Event& event) {
-         return Json(event.time_s);
-     }},
-    {text_row("what", "As element files name it."),
-     [](const Event& event) {
-         return Json(event.what);
-     }},
-    {not_always(count_row("line", "Of the program.")),
-     [](const Event& event) {
-         return event.line > 0 ? Json(event.line) : left_out();
-     }},
-    {{.key = "number", .kind = KeyKind::whole, .sentence = "Of a tool, an output."},
-     [](const Event& event) {
-         return event.number != 0 ? Json(event.number) : left_out();
-     }},
-    {{.key = "value", .kind = KeyKind::number, .sentence = "Of a spindle: 1/min."},
-     [](const Event& event) {
-         return event.value != 0.0 ? Json(event.value) : left_out();
-     }},
-    {not_always(text_row("text", "Of a message.")),
-     [](const Event& event) {
-         return event.text.empty() ? left_out() : Json(event.text);
-     }},
+    quantity<&Event::time_s>("t", "s", "When it happens."),
+    text<&Event::what>("what", "As element files name it."),
+    if_any(count<&Event::line>("line", "Of the program.")),
+    if_any(formed<&Event::number>("number", R"({"type": "integer"})", "Of a tool, an output.")),
+    if_any(quantity<&Event::value>("value", "", "Of a spindle: 1/min.")),
+    if_any(text<&Event::text>("text", "Of a message.")),
 };
 
-constexpr WrittenKey<ProgramSummary> program_keys[] = {
-    {not_always(text_row("dialect", "What --dialect auto takes, and why.")),
-     [](const ProgramSummary& s) {
-         return s.dialect.empty() ? left_out() : Json(s.dialect);
-     }},
-    {not_always(inside_row("left_out", "Words and lines that were not followed.")),
-     [](const ProgramSummary& s) { return s.left_out.empty() ? left_out() : to_json(s.left_out); },
-     [] {
-         return list_schema(written_schema(left_out_keys));
-     }},
-    {count_row("dwells", "How many."),
-     [](const ProgramSummary& s) {
-         return Json(s.dwells);
-     }},
-    {number_row("dwell_s", "s", "All of them; the cycle time includes it."),
-     [](const ProgramSummary& s) {
-         return Json(s.dwell_s);
-     }},
-    {count_row("events", "All of them."),
-     [](const ProgramSummary& s) {
-         return Json(s.events);
-     }},
-    {nullable(count_row("line", "Of the last move or dwell that was begun, where the machine stands.")),
-     [](const ProgramSummary& s) {
-         return s.line > 0 ? Json(s.line) : Json(nullptr);
-     }},
-    {inside_row("first_events", "At most 1000."), [](const ProgramSummary& s) { return to_json(s.first_events); },
-     [] {
-         return list_schema(written_schema(event_keys));
-     }},
+using Program = ProgramSummary;
+constexpr WrittenKey<Program> program_keys[] = {
+    if_any(text<&Program::dialect>("dialect", "What --dialect auto takes, and why.")),
+    if_any(objects<&Program::left_out, left_out_keys>("left_out", "Words and lines that were not followed.")),
+    count<&Program::dwells>("dwells", "How many."),
+    quantity<&Program::dwell_s>("dwell_s", "s", "All of them; the cycle time includes it."),
+    count<&Program::events>("events", "All of them."),
+    or_null(count<&Program::line>("line", "Of the last move or dwell that was begun, where the machine stands.")),
+    objects<&Program::first_events, event_keys>("first_events", "At most 1000."),
 };
 
 } // namespace
 
 Json to_json(const std::vector<Entry>& left_out_words) {
-    Json list = Json::array();
-    for (const Entry& entry : left_out_words) {
-        list.push_back(written(entry, left_out_keys));
-    }
-    return list;
+    return written_list(left_out_words, left_out_keys);
 }
 
 std::string to_text(const std::vector<LeftOutList::Entry>& left_out) {
@@ -118,11 +66,7 @@ Json program_schema() {
 }
 
 Json to_json(const std::vector<Event>& events) {
-    Json list = Json::array();
-    for (const Event& event : events) {
-        list.push_back(written(event, event_keys));
-    }
-    return list;
+    return written_list(events, event_keys);
 }
 
 std::string to_text(const ProgramSummary& summary) {

@@ -21,275 +21,127 @@ Json by_axis(const Summary& summary, Value value) {
     return object;
 }
 
-constexpr WrittenKey<Summary> use_keys[] = {
-    {axes_row("velocity", "1 is the limit."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return std::optional(s.limit_use[k].velocity); });
-     }},
-    {axes_row("acceleration", "1 is the limit."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return std::optional(s.limit_use[k].acceleration); });
-     }},
-    {axes_row("jerk", "Of axes with a jerk limit."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return s.limit_use[k].jerk; });
-     }},
+using Sum = Summary;
+
+template <auto member>
+Json use_of(const Sum& s) {
+    return by_axis(s, [&](std::size_t k) { return std::optional<double>(s.limit_use[k].*member); });
+}
+constexpr WrittenKey<Sum> use_keys[] = {
+    axes<use_of<&Sum::AxisUse::velocity>>("velocity", "1 is the limit."),
+    axes<use_of<&Sum::AxisUse::acceleration>>("acceleration", "1 is the limit."),
+    axes<use_of<&Sum::AxisUse::jerk>>("jerk", "Of axes with a jerk limit."),
 };
 
-constexpr WrittenKey<Summary> share_keys[] = {
-    {axes_row("velocity", "Of each axis."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return std::optional(s.limit_share->axis[k].velocity); });
-     }},
-    {axes_row("acceleration", "Of each axis."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return std::optional(s.limit_share->axis[k].acceleration); });
-     }},
-    {axes_row("jerk", "Of axes with a jerk limit."),
-     [](const Summary& s) {
-         return by_axis(s, [&](std::size_t k) { return s.limit_share->axis[k].jerk; });
-     }},
-    {number_row("feed", "", "The feed of the waypoint, else the machine's."),
-     [](const Summary& s) {
-         return Json(s.limit_share->feed);
-     }},
-    {number_row("centripetal", "", "The acceleration across the path."),
-     [](const Summary& s) {
-         return Json(s.limit_share->centripetal.value_or(0.0));
-     }},
-    {number_row("chord", "", "The chord error."),
-     [](const Summary& s) {
-         return Json(s.limit_share->chord.value_or(0.0));
-     }},
-    {number_row("none", "", "No limit."),
-     [](const Summary& s) {
-         return Json(s.limit_share->none);
-     }},
+template <auto member>
+Json share_of(const Sum& s) {
+    return by_axis(s, [&](std::size_t k) { return std::optional<double>(s.limit_share->axis[k].*member); });
+}
+template <auto member>
+double path_share(const Sum& s) {
+    return std::optional<double>((*s.limit_share).*member).value_or(0.0);
+}
+constexpr WrittenKey<Sum> share_keys[] = {
+    axes<share_of<&LimitShares::Axis::velocity>>("velocity", "Of each axis."),
+    axes<share_of<&LimitShares::Axis::acceleration>>("acceleration", "Of each axis."),
+    axes<share_of<&LimitShares::Axis::jerk>>("jerk", "Of axes with a jerk limit."),
+    quantity<path_share<&LimitShares::feed>>("feed", "", "The feed of the waypoint, else the machine's."),
+    quantity<path_share<&LimitShares::centripetal>>("centripetal", "", "The acceleration across the path."),
+    quantity<path_share<&LimitShares::chord>>("chord", "", "The chord error."),
+    quantity<path_share<&LimitShares::none>>("none", "", "No limit."),
 };
 
-constexpr WrittenKey<RaisedLimit> help_keys[] = {
-    {text_row("limit", "Its name."),
-     [](const RaisedLimit& limit) {
-         return Json(limit.limit);
-     }},
-    {nullable(text_row("set", "That limit for --set; null: it is a feed of the program.")),
-     [](const RaisedLimit& limit) {
-         return limit.setting.empty() ? Json(nullptr) : Json(limit.setting);
-     }},
-    {number_row("cycle_time_s", "s", "If it alone were 10 % higher."),
-     [](const RaisedLimit& limit) {
-         return Json(limit.cycle_time_s);
-     }},
-    {number_row("gain", "", "That part of the cycle time."),
-     [](const RaisedLimit& limit) {
-         return Json(limit.gain);
-     }},
+using Raised = RaisedLimit;
+constexpr WrittenKey<Raised> help_keys[] = {
+    text<&Raised::limit>("limit", "Its name."),
+    or_null(text<&Raised::setting>("set", "That limit for --set; null: it is a feed of the program.")),
+    quantity<&Raised::cycle_time_s>("cycle_time_s", "s", "If it alone were 10 % higher."),
+    quantity<&Raised::gain>("gain", "", "That part of the cycle time."),
 };
 
 using Place = ToleranceSummary::Place;
 constexpr WrittenKey<Place> place_keys[] = {
-    {number_row("distance", "mm or degrees", "The largest one, both ways."),
-     [](const Place& place) {
-         return Json(place.distance);
-     }},
-    {nullable(count_row("at", "The element, waypoint or move, from 1; null where the distance is 0.")),
-     [](const Place& place) {
-         return place.number > 0 ? Json(place.number) : Json();
-     }},
-    {nullable(count_row("line", "Its line in the input; null where it is not known.")),
-     [](const Place& place) {
-         return place.line > 0 ? Json(place.line) : Json();
-     }},
+    quantity<&Place::distance>("distance", "mm or degrees", "The largest one, both ways."),
+    or_null(count<&Place::number>("at", "The element, waypoint or move, from 1; null where the distance is 0.")),
+    or_null(count<&Place::line>("line", "Its line in the input; null where it is not known.")),
 };
 
-constexpr WrittenKey<ToleranceSummary> tolerance_keys[] = {
-    {flag_row("kept", "Whether each tolerance was."),
-     [](const ToleranceSummary& t) {
-         return Json(t.excess.empty());
-     }},
-    {inside_row("deviation_mm", "Distance between the path and the program."),
-     [](const ToleranceSummary& t) { return written(t.deviation, place_keys); },
-     [] {
-         return written_schema(place_keys);
-     }},
-    {not_always(inside_row("deviation_deg", "The same of rotary axes.")),
-     [](const ToleranceSummary& t) {
-         return t.rotary_deviation ? written(*t.rotary_deviation, place_keys) : left_out();
-     },
-     [] {
-         return written_schema(place_keys);
-     }},
-    {count_row("blended", "Joints that are rounded."),
-     [](const ToleranceSummary& t) {
-         return Json(t.blended);
-     }},
-    {count_row("stopped", "Joints with a stop, with the end."),
-     [](const ToleranceSummary& t) {
-         return Json(t.stopped);
-     }},
-    {count_row("through", "Joints that are passed straight on."),
-     [](const ToleranceSummary& t) {
-         return Json(t.through);
-     }},
-    {count_row("chains", "Chains of short lines."),
-     [](const ToleranceSummary& t) {
-         return Json(t.chains);
-     }},
-    {count_row("elements", "All elements."),
-     [](const ToleranceSummary& t) {
-         return Json(t.elements);
-     }},
-    {count_row("pieces", "What they became."),
-     [](const ToleranceSummary& t) {
-         return Json(t.pieces);
-     }},
-    {number_row("exact_stop_time_s", "s", "Estimate of the time with a stop at each element."),
-     [](const ToleranceSummary& t) {
-         return Json(t.exact_stop_s);
-     }},
-};
-
-constexpr WrittenKey<Summary::MemoryBytes> memory_keys[] = {
-    {count_row("curve", "Of the curve."),
-     [](const Summary::MemoryBytes& m) {
-         return Json(m.curve);
-     }},
-    {count_row("feed_plan", "Of the feed plan."),
-     [](const Summary::MemoryBytes& m) {
-         return Json(m.feed_plan);
-     }},
-    {count_row("stream", "Of the segment stream."),
-     [](const Summary::MemoryBytes& m) {
-         return Json(m.stream);
-     }},
-};
-
-Json help_of(const Summary& summary) {
-    if (!summary.what_would_help) {
-        return nullptr;
-    }
-    Json out = Json::array();
-    for (const RaisedLimit& raised : summary.what_would_help->limits) {
-        out.push_back(written(raised, help_keys));
-    }
-    return out;
+using Within = ToleranceSummary;
+bool is_kept(const Within& t) {
+    return t.excess.empty();
 }
+constexpr WrittenKey<Within> tolerance_keys[] = {
+    flag<is_kept>("kept", "Whether each tolerance was."),
+    object<&Within::deviation, place_keys>("deviation_mm", "Distance between the path and the program."),
+    if_any(object<&Within::rotary_deviation, place_keys>("deviation_deg", "The same of rotary axes.")),
+    count<&Within::blended>("blended", "Joints that are rounded."),
+    count<&Within::stopped>("stopped", "Joints with a stop, with the end."),
+    count<&Within::through>("through", "Joints that are passed straight on."),
+    count<&Within::chains>("chains", "Chains of short lines."),
+    count<&Within::elements>("elements", "All elements."),
+    count<&Within::pieces>("pieces", "What they became."),
+    quantity<&Within::exact_stop_s>("exact_stop_time_s", "s", "Estimate of the time with a stop at each element."),
+};
 
-bool is_steered(const Summary& summary) {
-    return summary.events + summary.events_not_reached > 0;
+using Bytes = Summary::MemoryBytes;
+constexpr WrittenKey<Bytes> memory_keys[] = {
+    count<&Bytes::curve>("curve", "Of the curve."),
+    count<&Bytes::feed_plan>("feed_plan", "Of the feed plan."),
+    count<&Bytes::stream>("stream", "Of the segment stream."),
+};
+
+const Sum& all_of(const Sum& s) {
+    return s;
 }
-
-constexpr WrittenKey<Summary> summary_keys[] = {
-    {number_row("cycle_time_s", "s", "Duration of the motion."),
-     [](const Summary& s) {
-         return Json(s.cycle_time_s);
-     }},
-    {number_row("length_mm", "mm", "Length of the path."),
-     [](const Summary& s) {
-         return Json(s.length_mm);
-     }},
-    {count_row("waypoints", "Points or moves of the input."),
-     [](const Summary& s) {
-         return Json(s.waypoints);
-     }},
-    {count_row("curve_segments", "Bezier segments."),
-     [](const Summary& s) {
-         return Json(s.curve_segments);
-     }},
-    {count_row("feed_segments", "Segments of the output."),
-     [](const Summary& s) {
-         return Json(s.feed_segments);
-     }},
-    {text_row("scalar", "Number type of the computation."),
-     [](const Summary& s) {
-         return Json(s.scalar);
-     }},
-    {nullable(text_row("jerk_scalar", "Number type of the plan with a jerk limit; null: there is none.")),
-     [](const Summary& s) {
-         return s.jerk_scalar.empty() ? Json(nullptr) : Json(s.jerk_scalar);
-     }},
-    {text_row("curve", "The method."),
-     [](const Summary& s) {
-         return Json(s.curve);
-     }},
-    {number_row("max_speed_mm_s", "mm/s", "The largest one."),
-     [](const Summary& s) {
-         return Json(s.max_speed_mm_s);
-     }},
-    {inside_row("limit_use", "Largest use of each axis limit, measured on the emitted motion."),
-     [](const Summary& s) { return written(s, use_keys); },
-     [] {
-         return written_schema(use_keys);
-     }},
-    {nullable(number_row("waypoint_error_mm", "mm", "Largest distance; null: the curve need not pass them.")),
-     [](const Summary& s) {
-         return or_null(s.waypoint_error_mm);
-     }},
-    {nullable(number_row("optimum_time_s", "s", "A lower bound of the cycle time; null: stopped or steered.")),
-     [](const Summary& s) {
-         return or_null(s.optimum_time_s);
-     }},
-    {number_row("planning_time_s", "s", "From the start to the summary; on a real target how long it computed."),
-     [](const Summary& s) {
-         return Json(s.planning_time_s);
-     }},
-    {inside_row("memory_bytes", "Memory of the planner."),
-     [](const Summary& s) { return written(s.memory_bytes, memory_keys); },
-     [] {
-         return written_schema(memory_keys);
-     }},
-    {flag_row("stopped", "The run ended before its program."),
-     [](const Summary& s) {
-         return Json(s.stopped);
-     }},
-    {nullable(count_row("window_limited", "How often the planning window was too short; null: not known.")),
-     [](const Summary& s) {
-         return or_null(s.window_limited);
-     }},
-    {count_row("stops", "Corners where the machine stops, without the ends."),
-     [](const Summary& s) {
-         return Json(s.stops);
-     }},
-    {number_row("smoothing_bound_mm", "mm", "Largest distance of the emitted motion from the curve."),
-     [](const Summary& s) {
-         return Json(s.smoothing_bound_mm);
-     }},
-    {count_row("peak_rss_bytes", "Memory of the process; 0: not known."),
-     [](const Summary& s) {
-         return Json(s.peak_rss_bytes);
-     }},
-    {nullable(inside_row("limit_share", "Share of the cycle time during which each limit binds.")),
-     [](const Summary& s) { return s.limit_share ? written(s, share_keys) : Json(nullptr); },
-     [] {
-         return written_schema(share_keys);
-     }},
-    {nullable(inside_row("what_would_help", "Each limit that bound, planned again, the largest gain first.")), help_of,
-     [] {
-         return list_schema(written_schema(help_keys));
-     }},
-    {not_always(count_row("what_would_help_moves", "The first moves, which stand for all.")),
-     [](const Summary& s) {
-         return s.what_would_help && s.what_would_help->moves > 0 ? Json(s.what_would_help->moves) : left_out();
-     }},
-    {not_always(count_row("events", "Of the operator.")),
-     [](const Summary& s) {
-         return is_steered(s) ? Json(s.events) : left_out();
-     }},
-    {not_always(count_row("events_not_reached", "Events after the end of the run.")),
-     [](const Summary& s) {
-         return is_steered(s) ? Json(s.events_not_reached) : left_out();
-     }},
-    {not_always(inside_row("tolerance", "Of elements, G-code and lines within a tolerance.")),
-     [](const Summary& s) { return s.tolerance ? written(*s.tolerance, tolerance_keys) : left_out(); },
-     [] {
-         return written_schema(tolerance_keys);
-     }},
-    {not_always(inside_row("program", "Of elements and G-code.")),
-     [](const Summary& s) { return s.program.empty() ? left_out() : to_json(s.program); }, program_schema},
-    {not_always(inside_row("link", "Of a run on Modbus drives.")),
-     [](const Summary& s) { return s.link ? to_json(*s.link) : left_out(); }, link_schema},
-    {not_always(inside_row("gpio", "Of a run on GPIO lines.")),
-     [](const Summary& s) { return s.gpio ? to_json(*s.gpio) : left_out(); }, gpio_schema},
+const Sum* shares_of(const Sum& s) {
+    return s.limit_share ? &s : nullptr;
+}
+const std::vector<Raised>* helps_of(const Sum& s) {
+    return s.what_would_help ? &s.what_would_help->limits : nullptr;
+}
+std::uint64_t moves_of(const Sum& s) {
+    return s.what_would_help ? s.what_would_help->moves : 0;
+}
+/// Of a run that was steered.
+template <auto member>
+std::optional<std::uint64_t> events_of(const Sum& s) {
+    return s.events + s.events_not_reached > 0 ? std::optional(s.*member) : std::nullopt;
+}
+constexpr WrittenKey<Sum> summary_keys[] = {
+    quantity<&Sum::cycle_time_s>("cycle_time_s", "s", "Duration of the motion."),
+    quantity<&Sum::length_mm>("length_mm", "mm", "Length of the path."),
+    count<&Sum::waypoints>("waypoints", "Points or moves of the input."),
+    count<&Sum::curve_segments>("curve_segments", "Bezier segments."),
+    count<&Sum::feed_segments>("feed_segments", "Segments of the output."),
+    text<&Sum::scalar>("scalar", "Number type of the computation."),
+    or_null(text<&Sum::jerk_scalar>("jerk_scalar", "Number type of the plan with a jerk limit; null: there is none.")),
+    text<&Sum::curve>("curve", "The method."),
+    quantity<&Sum::max_speed_mm_s>("max_speed_mm_s", "mm/s", "The largest one."),
+    object<all_of, use_keys>("limit_use", "Largest use of each axis limit, measured on the emitted motion."),
+    or_null(quantity<&Sum::waypoint_error_mm>("waypoint_error_mm", "mm",
+                                              "Largest distance; null: the curve need not pass them.")),
+    or_null(quantity<&Sum::optimum_time_s>("optimum_time_s", "s",
+                                           "A lower bound of the cycle time; null: stopped or steered.")),
+    quantity<&Sum::planning_time_s>("planning_time_s", "s",
+                                    "From the start to the summary; on a real target how long it computed."),
+    object<&Sum::memory_bytes, memory_keys>("memory_bytes", "Memory of the planner."),
+    flag<&Sum::stopped>("stopped", "The run ended before its program."),
+    or_null(
+        count<&Sum::window_limited>("window_limited", "How often the planning window was too short; null: not known.")),
+    count<&Sum::stops>("stops", "Corners where the machine stops, without the ends."),
+    quantity<&Sum::smoothing_bound_mm>("smoothing_bound_mm", "mm",
+                                       "Largest distance of the emitted motion from the curve."),
+    count<&Sum::peak_rss_bytes>("peak_rss_bytes", "Memory of the process; 0: not known."),
+    or_null(object<shares_of, share_keys>("limit_share", "Share of the cycle time during which each limit binds.")),
+    or_null(objects<helps_of, help_keys>("what_would_help",
+                                         "Each limit that bound, planned again, the largest gain first.")),
+    if_any(count<moves_of>("what_would_help_moves", "The first moves, which stand for all.")),
+    if_any(count<events_of<&Sum::events>>("events", "Of the operator.")),
+    if_any(count<events_of<&Sum::events_not_reached>>("events_not_reached", "Events after the end of the run.")),
+    if_any(object<&Sum::tolerance, tolerance_keys>("tolerance", "Of elements, G-code and lines within a tolerance.")),
+    if_any(part<&Sum::program, program_schema>("program", "Of elements and G-code.")),
+    if_any(part<&Sum::link, link_schema>("link", "Of a run on Modbus drives.")),
+    if_any(part<&Sum::gpio, gpio_schema>("gpio", "Of a run on GPIO lines.")),
 };
 
 } // namespace

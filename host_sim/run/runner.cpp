@@ -51,26 +51,11 @@ std::optional<std::uint64_t> look_before(PathInput& input, const PathLimits& lim
     return input.repeatable() && !rows ? look(input, {.limits = &limits}) : rows;
 }
 
-/// Input that is valid, but whose curve is hardly what was meant.
-std::vector<std::string> warnings(const PathInput& input) {
-    std::vector<std::string> out;
-    if (!input.dialect_choice().empty()) {
-        out.push_back(fmt::format("{}: {}", printable(input.name()), printable(input.dialect_choice())));
-    }
-    if (input.segments() != nullptr) {
-        for (const std::string& warning : input.segments()->warnings) {
-            out.push_back(fmt::format("{}: warning: {}", printable(input.name()), warning));
-        }
-    }
-    return out;
-}
-
 void warn(const PathInput& input, bool quiet, RunResult* result) {
-    const std::vector<std::string> sentences = warnings(input);
     if (result != nullptr) {
-        result->notes = sentences;
-    } else if (!quiet && !sentences.empty()) {
-        tell("{}\n", fmt::join(sentences, "\n"));
+        result->notes = path_notes(input);
+    } else if (const std::vector<std::string> notes = path_notes(input, "warning: "); !quiet && !notes.empty()) {
+        tell("{}\n", fmt::join(notes, "\n"));
     }
 }
 
@@ -151,7 +136,57 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
     }
 }
 
+MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMachine& of) {
+    MotionArguments out = arguments.motion;
+    out.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
+    out.begins = of.state(arguments.state, arguments.position, arguments.options.home);
+    return out;
+}
+
+/// Whether the program is planned again, for what would help: where it can be, and somebody is told.
+bool finds_help(const RunArguments& arguments, const PathInput& input, const Summary& summary) {
+    const bool is_told =
+        !arguments.outputs.report.empty() || arguments.result != nullptr || arguments.summary != SummaryKind::none;
+    return arguments.helps && arguments.target == "sim" && input.repeatable() && summary.optimum_time_s && is_told;
+}
+
+void find_help(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Motion& motion,
+               std::optional<std::uint64_t> waypoints, Summary& summary) {
+    summary.what_would_help = what_would_help({.path = &arguments.path,
+                                               .machine = &of,
+                                               .begins = &begins,
+                                               .planner = arguments.motion.planner,
+                                               .standing_s = motion.stood_s(),
+                                               .waypoints = waypoints,
+                                               .quiet = arguments.motion.quiet},
+                                              summary);
+}
+
+/// Tells how it ended. Returns the exit status.
+int conclude(const RunArguments& arguments, Summary summary, const std::string& stopped) {
+    if (arguments.result != nullptr) {
+        arguments.result->summary = std::move(summary);
+        arguments.result->stopped = stopped;
+    } else if (!stopped.empty()) {
+        tell("splinefeed: {}\n", printable(stopped));
+    }
+    return stopped.empty() ? 0 : 1;
+}
+
 } // namespace
+
+std::vector<std::string> path_notes(const PathInput& input, std::string_view mark) {
+    std::vector<std::string> out;
+    if (!input.dialect_choice().empty()) {
+        out.push_back(fmt::format("{}: {}", printable(input.name()), printable(input.dialect_choice())));
+    }
+    if (input.segments() != nullptr) {
+        for (const std::string& warning : input.segments()->warnings) {
+            out.push_back(fmt::format("{}: {}{}", printable(input.name()), mark, warning));
+        }
+    }
+    return out;
+}
 
 MachineChoice machine_of(const RunArguments& arguments) {
     return {arguments.machine, arguments.settings, arguments.path.input};
@@ -179,9 +214,7 @@ int run(const RunArguments& arguments) {
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
-    MotionArguments motion_arguments = arguments.motion;
-    motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
-    motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);
+    MotionArguments motion_arguments = motion_arguments_of(arguments, of);
     input.begin_at(motion_arguments.begins);
     if (!signals) {
         of.settle_places(motion_arguments.begins, arguments.state);
@@ -215,16 +248,8 @@ int run(const RunArguments& arguments) {
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     Summary summary = motion.summary();
-    if (arguments.helps && !signals && input.repeatable() && summary.optimum_time_s &&
-        (report || arguments.result != nullptr || arguments.summary != SummaryKind::none)) {
-        summary.what_would_help = what_would_help({.path = &arguments.path,
-                                                   .machine = &of,
-                                                   .begins = &motion_arguments.begins,
-                                                   .planner = arguments.motion.planner,
-                                                   .standing_s = motion.stood_s(),
-                                                   .waypoints = waypoints,
-                                                   .quiet = arguments.motion.quiet},
-                                                  summary);
+    if (finds_help(arguments, input, summary)) {
+        find_help(arguments, of, motion_arguments.begins, motion, waypoints, summary);
     }
     if (!signals) {
         summary.planning_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -235,13 +260,7 @@ int run(const RunArguments& arguments) {
     warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, arguments.summary);
     supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
-    if (arguments.result != nullptr) {
-        arguments.result->summary = std::move(summary);
-        arguments.result->stopped = stopped;
-    } else if (!stopped.empty()) {
-        tell("splinefeed: {}\n", printable(stopped));
-    }
-    return stopped.empty() ? 0 : 1;
+    return conclude(arguments, std::move(summary), stopped);
 }
 
 int draw(const RunArguments& arguments) {

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace splinefeed::host {
@@ -47,6 +48,10 @@ struct RunArguments {
 /// A file is checked completely, limits included, before anything moves. A pipe moves the machine while it is read, in
 /// constant memory: an error after the first move ends the run with a controlled stop.
 [[nodiscard]] int run(const RunArguments& arguments);
+
+/// Of input that is valid, but whose curve is hardly what was meant; what the dialect was taken to be.
+/// @param mark  of the former: "warning: "
+[[nodiscard]] std::vector<std::string> path_notes(const PathInput& input, std::string_view mark = {});
 
 [[nodiscard]] MachineChoice machine_of(const RunArguments& arguments);
 

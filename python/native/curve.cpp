@@ -40,16 +40,14 @@ Pieces pieces_of(const host::PathArguments& arguments) {
     host::PathInput input(arguments, host::PathUse::drawn, {});
     Pieces out;
     out.axes = input.axes().size();
-    if (const host::CurveFile* const curve = input.segments()) {
-        out.warnings = curve->warnings;
-        if (!input.choice().smooth) {
-            out.numbers = curve->numbers;
-            out.axes = static_cast<std::size_t>(curve->axes);
-            for (const host::CurveFile::Segment& segment : curve->segments) {
-                out.degrees.push_back(segment.degree);
-            }
-            return out;
+    out.warnings = host::path_notes(input);
+    if (const host::CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
+        out.numbers = curve->numbers;
+        out.axes = static_cast<std::size_t>(curve->axes);
+        for (const host::CurveFile::Segment& segment : curve->segments) {
+            out.degrees.push_back(segment.degree);
         }
+        return out;
     }
     Keeper keeper(out);
     static_cast<void>(host::look_through(input, keeper));

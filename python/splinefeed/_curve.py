@@ -5,13 +5,12 @@ from __future__ import annotations
 import functools
 import json
 import os
-import warnings
 from typing import Any
 
 import numpy as np
 
 from . import _native
-from ._errors import SplinefeedWarning
+from ._errors import warn_caller
 from ._options import is_file, options_of, points_of
 
 #: Nodes and weights of Gauss-Legendre for the arc length: exact to 1e-12 of a span that is smooth.
@@ -53,8 +52,7 @@ class Curve:
     def _take(self, points: np.ndarray, degrees: np.ndarray, notes: list[str]) -> None:
         ends = np.cumsum(degrees + 1)
         self._bezier = [points[end - degree - 1:end] for end, degree in zip(ends, degrees)]
-        for note in notes:
-            warnings.warn(note, SplinefeedWarning, stacklevel=3)
+        warn_caller(notes)
 
     @property
     def bezier(self) -> list[np.ndarray]:

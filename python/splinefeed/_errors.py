@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What splinefeed raises. The text is the sentence that the command prints."""
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterable
 
 
 class Error(Exception):
@@ -20,3 +25,12 @@ class OutputError(Error, OSError):
 
 class SplinefeedWarning(UserWarning):
     """Input that is valid, but hardly what was meant."""
+
+
+def warn_caller(notes: Iterable[str]) -> None:
+    """Each note is a warning of the line, outside this package, that called it."""
+    level, frame = 2, sys._getframe(1)  # pylint: disable=protected-access
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    for note in notes:
+        warnings.warn(note, SplinefeedWarning, stacklevel=level)

@@ -29,9 +29,11 @@ def _toml(value: Any) -> str:
 def _one(value: Any, axes: Sequence[str], number: int, pairs: bool) -> Any:
     """What one axis has of an argument: the value itself, or its part of a sequence or a mapping."""
     if isinstance(value, Mapping):
-        if unknown := [name for name in value if name not in axes]:
-            raise ValueError(f"there is no axis {unknown[0]!r}; the axes are {', '.join(axes)}")
-        return value.get(axes[number])
+        by_name = {name.lower(): one for name, one in value.items()}
+        names = [name.lower() for name in axes]
+        if unknown := [name for name in by_name if name not in names]:
+            raise ValueError(f"there is no axis {unknown[0]!r}; the axes are {', '.join(names)}")
+        return by_name.get(names[number])
     if isinstance(value, str) or not isinstance(value, (Sequence, np.ndarray)):
         return value
     if pairs and all(isinstance(part, (int, float, np.number)) for part in value):

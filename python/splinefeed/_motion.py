@@ -6,13 +6,12 @@ import functools
 import json
 import math
 import os
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _native
-from ._errors import SplinefeedWarning
+from ._errors import warn_caller
 from ._machine import Machine, machine_or_default
 from ._options import column_of, is_file, options_of, points_of
 
@@ -43,8 +42,7 @@ class Motion:
     def __init__(self, native: _native.Motion, machine: Machine) -> None:
         self._native = native
         self._machine = machine
-        for note in self.notes:
-            warnings.warn(note, SplinefeedWarning, stacklevel=4)
+        warn_caller(self.notes)
 
     @property
     def machine(self) -> Machine:

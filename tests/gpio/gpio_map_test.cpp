@@ -24,7 +24,7 @@ MachineDescription two_axes() {
 const std::string good = R"([axis.y]
 step = 6
 direction = { chip = "/dev/gpiochip1", offset = 3 }
-[axis.x]
+[axis.X]
 step = "X_STEP"
 direction = { offset = 5, name = "X_DIR" }
 step2 = "X2_STEP"
@@ -97,11 +97,11 @@ axis = "y"
 line = 13
 [[input]]
 role = "home"
-axis = "y"
+axis = "Y"
 line = 14
 bias = "pull-up"
 debounce_us = 100000
-[home.y]
+[home.Y]
 towards = "high"
 seek_mm_s = 100
 latch_mm_s = 0.5

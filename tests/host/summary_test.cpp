@@ -58,10 +58,71 @@ void what_would_help(Summary& summary) {
         {{"jerk of x", "axis.x.max_jerk_mm_s3=33000", 12.0, 0.028}, {"programmed feed", {}, 12.34, 0.0001}}};
 }
 
+void with_a_program(Summary& summary) {
+    ProgramSummary& program = summary.program;
+    program.dialect = "marlin, for M104";
+    program.left_out = {{"M104", 3, 5}, {"E", 1, 12}};
+    program.dwells = 2;
+    program.dwell_s = 1.5;
+    program.events = 3;
+    program.line = 17;
+    program.first_events = {{1.5, 4, "change_tool", 2, 0.0, {}},
+                            {2.0, 0, "spindle_on", 0, 12000.0, {}},
+                            {2.5, 9, "message", 0, 0.0, "done"}};
+}
+
+void on_drives(Summary& summary) {
+    LinkSummary link;
+    link.drives.push_back({"modbus-tcp://127.0.0.1:1502?unit=1", {.exchanges = 100, .segments = 90, .timeouts = 1}});
+    link.drives.push_back({"modbus-tcp://127.0.0.1:1502?unit=2", {.exchanges = 50, .segments = 45, .resent = 7}});
+    link.clocks_s = 0.0005;
+    link.resumes = 1;
+    link.bus_s = 0.25;
+    summary.link = link;
+}
+
+void on_lines(Summary& summary) {
+    GpioSummary gpio;
+    gpio.edges = 1000;
+    gpio.median_late_s = 1e-5;
+    gpio.p99_late_s = 4e-5;
+    gpio.most_late_s = 9e-5;
+    gpio.late = {{1e-5, 600}, {2e-5, 400}};
+    gpio.schedule_slip_s = 0.001;
+    gpio.buffer_underruns = 2;
+    gpio.began_monotonic_s = 77.5;
+    gpio.missed = 3;
+    gpio.changes_left_out = 4;
+    gpio.add({.role = "limit", .axis = "x", .active = true, .time_s = 1.25, .position_mm = {{10.5, -3.0}}});
+    gpio.add({.role = "e-stop", .axis = {}, .active = false, .time_s = 2.5, .position_mm = {}});
+    summary.gpio = gpio;
+}
+
 const struct {
     const char* what;
     void (*change)(Summary&);
 } rows[] = {
+    {"a plan with a jerk limit, in another scalar",
+     [](Summary& s) {
+         s.jerk_scalar = "double";
+     }},
+    {"a run that was steered",
+     [](Summary& s) {
+         s.events = 2;
+     }},
+    {"what a program asked for", with_a_program},
+    {"a program that has begun no line",
+     [](Summary& s) {
+         s.program.dwells = 1;
+     }},
+    {"a run on drives", on_drives},
+    {"a run on drives that follow targets",
+     [](Summary& s) {
+         on_drives(s);
+         s.link->target_period_us = 2000;
+         s.link->between_targets_mm = 0.003;
+     }},
+    {"a run on lines", on_lines},
     {"a curve of control points has no waypoint error",
      [](Summary& s) {
          s.waypoint_error_mm.reset();

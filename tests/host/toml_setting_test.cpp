@@ -34,3 +34,14 @@ TEST_CASE("settings replace what a machine file states, and add what it does not
     CHECK(machine.inverted[0]);
     CHECK(machine.step.tick_us == 10.0);
 }
+
+TEST_CASE("settings find an axis by its small or its capital letter, as the machine file may write it") {
+    for (const char* const name : {"x", "X"}) {
+        const std::string text = std::string("[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = \"") + name +
+                                 "\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
+        for (const char* const setting : {"axis.x.max_velocity_mm_s=50", "axis.X.max_velocity_mm_s=50"}) {
+            CAPTURE(name, setting);
+            CHECK(parse_machine(text, "m.toml", {setting}).settings.axis[0].max_velocity_mm_s == 50.0);
+        }
+    }
+}

@@ -138,38 +138,54 @@ void SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number,
     interpreter.offsets_changed_ = true;
 }
 
-bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept {
-    struct Flag {
+namespace {
+
+/// Whether the text is that word, in any case and with any blanks.
+bool is_word(TextCursor text, std::string_view word) noexcept {
+    return text.take(word) && text.at_end();
+}
+
+} // namespace
+
+bool SystemParameters::read_mode(const TextCursor& text, bool& applies) const noexcept {
+    struct Mode {
         std::string_view name;
-        bool value;
+        bool applies;
     };
-    TextCursor text(name);
-    if (!text.take('_')) {
-        return false;
-    }
-    const TextCursor begin = text;
-    const auto is = [&](std::string_view word) {
-        text = begin;
-        return text.take(word) && text.at_end();
-    };
-    const Flag flags[] = {{"metric"sv, !interpreter_->modal_.inches},
-                          {"imperial"sv, interpreter_->modal_.inches},
-                          {"absolute"sv, !interpreter_->modal_.incremental},
-                          {"incremental"sv, interpreter_->modal_.incremental},
-                          {"inverse_time"sv, interpreter_->modal_.inverse_time},
-                          {"units_per_minute"sv, !interpreter_->modal_.inverse_time && !interpreter_->modal_.per_turn},
-                          {"units_per_rev"sv, interpreter_->modal_.per_turn},
-                          {"lathe_diameter_mode"sv, interpreter_->modal_.diameter},
-                          {"lathe_radius_mode"sv, !interpreter_->modal_.diameter},
-                          {"spindle_css_mode"sv, interpreter_->modal_.surface.applies()},
-                          {"spindle_rpm_mode"sv, !interpreter_->modal_.surface.applies()},
-                          {"spindle_on"sv, interpreter_->modal_.spindle != SpindleState::stopped},
-                          {"spindle_cw"sv, interpreter_->modal_.spindle == SpindleState::clockwise}};
-    for (const Flag& flag : flags) {
-        if (is(flag.name)) {
-            out = whole(flag.value ? 1 : 0);
+    const ModalState& modal = interpreter_->modal_;
+    const Mode modes[] = {{"metric"sv, !modal.inches},
+                          {"imperial"sv, modal.inches},
+                          {"absolute"sv, !modal.incremental},
+                          {"incremental"sv, modal.incremental},
+                          {"inverse_time"sv, modal.inverse_time},
+                          {"units_per_minute"sv, !modal.inverse_time && !modal.per_turn},
+                          {"units_per_rev"sv, modal.per_turn},
+                          {"lathe_diameter_mode"sv, modal.diameter},
+                          {"lathe_radius_mode"sv, !modal.diameter},
+                          {"spindle_css_mode"sv, modal.surface.applies()},
+                          {"spindle_rpm_mode"sv, !modal.surface.applies()},
+                          {"spindle_on"sv, modal.spindle != SpindleState::stopped},
+                          {"spindle_cw"sv, modal.spindle == SpindleState::clockwise}};
+    for (const Mode& mode : modes) {
+        if (is_word(text, mode.name)) {
+            applies = mode.applies;
             return true;
         }
+    }
+    return false;
+}
+
+bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept {
+    TextCursor begin(name);
+    if (!begin.take('_')) {
+        return false;
+    }
+    const auto is = [&](std::string_view word) {
+        return is_word(begin, word);
+    };
+    if (bool applies = false; read_mode(begin, applies)) {
+        out = whole(applies ? 1 : 0);
+        return true;
     }
     for (std::int32_t k = 0; k < 9; ++k) {
         if (is({axis_order.data() + k, 1})) {

@@ -23,6 +23,8 @@ public:
     static void write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept;
 
 private:
+    /// Whether the mode that the text names applies. False: there is none.
+    [[nodiscard]] bool read_mode(const TextCursor& text, bool& applies) const noexcept;
     [[nodiscard]] Decimal of_axis(const AxisPoint& point, std::int32_t index) const noexcept;
     [[nodiscard]] Decimal in_units(Decimal value, std::int32_t index) const noexcept;
 

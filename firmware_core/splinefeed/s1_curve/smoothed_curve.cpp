@@ -62,6 +62,31 @@ constexpr S most_change() noexcept {
     return literal<S>(0x1p22);
 }
 
+/// The mean of the two directions. False: it is a corner, or a piece has none.
+template <Scalar S>
+bool mean_direction(const Derivatives<S>& a, const Derivatives<S>& b, int axes, PerAxis<S>& direction) noexcept {
+    const S least = literal<S>(1); // of 2^15 to 2^16, the size of the segment
+    if (!(a.length >= least && b.length >= least)) {
+        return false;
+    }
+    PerAxis<S> sum{};
+    PerAxis<S> apart{};
+    for (const unsigned k : indices(axes)) {
+        const S from = a.first[k] / a.length;
+        const S to = b.first[k] / b.length;
+        sum[k] = from + to;
+        apart[k] = to - from;
+    }
+    if (norm(apart, axes) > literal<S>(0x1p-10)) {
+        return false;
+    }
+    const S twice = norm(sum, axes);
+    for (const unsigned k : indices(axes)) {
+        direction[k] = sum[k] / twice;
+    }
+    return true;
+}
+
 } // namespace
 
 // Decides whether the joint of current_ and ahead_ is smoothed, and fills end_ and next_start_.
@@ -73,28 +98,11 @@ void SmoothedCurve<S>::join() noexcept {
         return;
     }
     const int axes = current_.axes;
-    const auto axes_u = static_cast<unsigned>(axes);
     const Derivatives<S> a = derivatives_at(current_, true);
     const Derivatives<S> b = derivatives_at(ahead_, false);
-    const S least = literal<S>(1); // of 2^15 to 2^16, the size of the segment
-    if (!(a.length >= least && b.length >= least)) {
-        return;
-    }
-    PerAxis<S> sum{};
-    PerAxis<S> apart{};
-    for (unsigned k = 0; k < axes_u; ++k) {
-        const S from = a.first[k] / a.length;
-        const S to = b.first[k] / b.length;
-        sum[k] = from + to;
-        apart[k] = to - from;
-    }
-    if (norm(apart, axes) > literal<S>(0x1p-10)) {
-        return;
-    }
-    const S twice = norm(sum, axes);
     PerAxis<S> direction{};
-    for (unsigned k = 0; k < axes_u; ++k) {
-        direction[k] = sum[k] / twice;
+    if (!mean_direction(a, b, axes, direction)) {
+        return;
     }
     // The longer tangent is `one`; the other one has the ratio m 2^e to it, with m in (1/2, 2) and e <= 0 except for
     // rounding.
@@ -122,7 +130,7 @@ void SmoothedCurve<S>::join() noexcept {
     End& end_other = a_longer ? next_start_ : end_;
     const S most_one = scale2(most_change<S>(), -up_one);
     const S most_other = scale2(most_change<S>(), smaller(larger(-up_other - 2 * e, -96), 96));
-    for (unsigned k = 0; k < axes_u; ++k) {
+    for (const unsigned k : indices(axes)) {
         const S normal_one = at_one.second[k] - along_one * direction[k];
         const S normal_other = at_other.second[k] - along_other * direction[k];
         const S v = scale2(normal_one, -up_one) + scale2(normal_other, -up_other);

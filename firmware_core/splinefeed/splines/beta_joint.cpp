@@ -126,8 +126,20 @@ Result<BetaJoint<S>> beta_joint(const BezierPiece<S>& before, const Beta<S>& bet
     return joint;
 }
 
+namespace {
+
+/// Derivatives by the parameters of two pieces where they meet.
 template <Scalar S>
-Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierPiece<S>& after) noexcept {
+struct MeetingEnds {
+    Point<S> q1{}; // of the piece before
+    Point<S> q2{};
+    Point<S> r1{}; // of the piece behind
+    Point<S> r2{};
+    Point<S> step{}; // from one to the other
+};
+
+template <Scalar S>
+Status take_ends(const BezierPiece<S>& before, const BezierPiece<S>& after, MeetingEnds<S>& out) noexcept {
     const int n = before.degree;
     const int m = after.degree;
     if (n < 1 || n > max_degree || m < 1 || m > max_degree) {
@@ -138,12 +150,7 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
     const int max_path_acceleration = highest > 1 ? highest * (highest - 1) : 1;
     const S coordinate_most =
         scale2(from_integer<S>(1), std::same_as<S, Fixed> ? 28 : 50) / from_integer<S>(max_path_acceleration);
-    Point<S> q1{};
-    Point<S> r1{};
-    Point<S> q2{};
-    Point<S> r2{};
-    Point<S> step{};
-    for (unsigned k = 0; k < q1.size(); ++k) {
+    for (unsigned k = 0; k < out.q1.size(); ++k) {
         const PerDegree<S>& q = before.control[k];
         const PerDegree<S>& r = after.control[k];
         const auto last = static_cast<unsigned>(n);
@@ -153,16 +160,28 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
                 return Error::result_out_of_range;
             }
         }
-        step[k] = r[0] - q[last];
-        q1[k] = from_integer<S>(n) * (q[last] - q[last - 1]);
-        r1[k] = from_integer<S>(m) * (r[1] - r[0]);
+        out.step[k] = r[0] - q[last];
+        out.q1[k] = from_integer<S>(n) * (q[last] - q[last - 1]);
+        out.r1[k] = from_integer<S>(m) * (r[1] - r[0]);
         if (n > 1) {
-            q2[k] = from_integer<S>(n * (n - 1)) * ((q[last] - q[last - 1]) - (q[last - 1] - q[last - 2]));
+            out.q2[k] = from_integer<S>(n * (n - 1)) * ((q[last] - q[last - 1]) - (q[last - 1] - q[last - 2]));
         }
         if (m > 1) {
-            r2[k] = from_integer<S>(m * (m - 1)) * ((r[2] - r[1]) - (r[1] - r[0]));
+            out.r2[k] = from_integer<S>(m * (m - 1)) * ((r[2] - r[1]) - (r[1] - r[0]));
         }
     }
+    return {};
+}
+
+} // namespace
+
+template <Scalar S>
+Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierPiece<S>& after) noexcept {
+    MeetingEnds<S> ends;
+    if (const Status status = take_ends(before, after, ends); !status.ok()) {
+        return status.error();
+    }
+    const auto& [q1, q2, r1, r2, step] = ends;
     const S speed_before = norm(q1, max_axes);
     const S speed_after = norm(r1, max_axes);
     if (!(speed_before > S{}) || !(speed_after > S{})) {

@@ -105,66 +105,83 @@ Status BsplineInterpolation<S>::prepare_open(std::span<const S> parameters) noex
     return system_.factor();
 }
 
+namespace {
+
+/// The knots of a closed curve, which repeat.
+template <Scalar S>
+struct Period {
+    std::span<const S> knots;
+    std::size_t points;
+    std::size_t degree;
+    S start;
+    S length;
+
+    /// A parameter in the domain of the knots.
+    [[nodiscard]] S inside(S t) const noexcept {
+        while (t < start) {
+            t += length;
+        }
+        while (!(t < start + length)) {
+            t -= length;
+        }
+        return t;
+    }
+
+    /// Least distance of a parameter from an end of its basis function, where that of point i is `first` + i. 0: one
+    /// lies beyond.
+    [[nodiscard]] S least_support(std::span<const S> parameters, std::size_t first) const noexcept {
+        S least{};
+        for (std::size_t i = 0; i < points; ++i) {
+            const S t = inside(parameters[i]);
+            std::size_t control = first + i; // its support is knots[control] ... knots[control + degree + 1]
+            S turns = t < inside(parameters[0]) ? length : S{}; // in the next period
+            while (control >= points) {
+                control -= points;
+                turns -= length;
+            }
+            const S below = t + turns - knots[control];
+            const S above = knots[control + degree + 1U] - t - turns;
+            const S nearest = smaller(below, above);
+            if (!(nearest > S{})) {
+                return S{};
+            }
+            least = i == 0 ? nearest : smaller(least, nearest);
+        }
+        return least;
+    }
+};
+
+} // namespace
+
 template <Scalar S>
 Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) noexcept {
     const auto k = static_cast<std::size_t>(kind_.degree);
-    const S start = knots_[k];
-    const S period = knots_[k + points_] - start;
-    // Brings a parameter into the domain of the knots.
-    const auto inside = [&](S t) {
-        while (t < start) {
-            t += period;
-        }
-        while (!(t < start + period)) {
-            t -= period;
-        }
-        return t;
-    };
+    const Period<S> period{knots_, points_, k, knots_[k], knots_[k + points_] - knots_[k]};
     if (kind_.degree % 2 == 0 && points_ % 2U == 0) {
         bool all_at_knots = true;
         for (std::size_t i = 0; i < points_ && all_at_knots; ++i) {
-            const S t = inside(parameters[i]);
+            const S t = period.inside(parameters[i]);
             const std::size_t span = find_span(knots_, kind_.degree, t);
-            all_at_knots = smaller(t - knots_[span], knots_[span + 1U] - t) <= closed_knot_tolerance(period);
+            all_at_knots = smaller(t - knots_[span], knots_[span + 1U] - t) <= closed_knot_tolerance(period.length);
         }
         if (all_at_knots) {
             return Error::even_degree_closed;
         }
     }
     // The span of point i without taking it modulo the period: it increases with i.
-    const std::size_t first_span = find_span(knots_, kind_.degree, inside(parameters[0]));
-    S best{};
-    bool found = false;
+    const std::size_t first_span = find_span(knots_, kind_.degree, period.inside(parameters[0]));
+    slack_ = S{};
     for (std::size_t candidate = first_span - k; candidate <= first_span; ++candidate) {
-        S least{};
-        bool regular = true;
-        for (std::size_t i = 0; i < points_ && regular; ++i) {
-            const S t = inside(parameters[i]);
-            const bool turned = t < inside(parameters[0]); // in the next period
-            std::size_t control = candidate + i;           // its support is knots[control] ... knots[control+k+1]
-            S turns = turned ? period : S{};
-            while (control >= points_) {
-                control -= points_;
-                turns -= period;
-            }
-            const S below = t + turns - knots_[control];
-            const S above = knots_[control + k + 1U] - t - turns;
-            const S nearest = smaller(below, above);
-            regular = nearest > S{};
-            least = i == 0 ? nearest : smaller(least, nearest);
-        }
-        if (regular && (!found || least > best)) {
-            best = least;
+        if (const S least = period.least_support(parameters, candidate); least > slack_) {
+            slack_ = least;
             shift_ = candidate % points_;
-            found = true;
         }
     }
-    if (!found) {
+    if (!(slack_ > S{})) {
         return Error::schoenberg_whitney;
     }
-    slack_ = best;
     for (std::size_t i = 0; i < points_; ++i) {
-        const S t = inside(parameters[i]);
+        const S t = period.inside(parameters[i]);
         const std::size_t span = find_span(knots_, kind_.degree, t);
         const PerDegree<S> row = basis_functions(knots_, kind_.degree, span, t);
         for (std::size_t j = 0; j <= k; ++j) {

@@ -72,6 +72,18 @@ S closed_knot(KnotRule rule, const PeriodicParameters<S>& t, int degree, std::pt
     return t(j);
 }
 
+/// @param inner  number of knots between the ends
+bool suits_open(KnotRule rule, std::size_t parameters, int degree, bool end_derivatives, std::size_t inner) noexcept {
+    switch (rule) {
+    case KnotRule::uniform: return true;
+    case KnotRule::average: return !end_derivatives;
+    case KnotRule::average_tangents: return end_derivatives && degree >= 2;
+    case KnotRule::params: return inner == parameters - 2U;
+    case KnotRule::midpoints: break;
+    }
+    return false;
+}
+
 } // namespace
 
 template <Scalar S>
@@ -92,25 +104,9 @@ Status open_knots(KnotRule rule, std::span<const S> parameters, int degree, bool
     if (const Status status = check_parameters(parameters, last); !status.ok()) {
         return status;
     }
-    const std::size_t inner = controls - k - 1U; // number of knots between the ends
-    switch (rule) {
-    case KnotRule::uniform: break;
-    case KnotRule::average:
-        if (end_derivatives) {
-            return Error::knot_rule_unsuited;
-        }
-        break;
-    case KnotRule::average_tangents:
-        if (!end_derivatives || degree < 2) {
-            return Error::knot_rule_unsuited;
-        }
-        break;
-    case KnotRule::params:
-        if (inner != parameters.size() - 2U) {
-            return Error::knot_rule_unsuited;
-        }
-        break;
-    case KnotRule::midpoints: return Error::knot_rule_unsuited;
+    const std::size_t inner = controls - k - 1U;
+    if (!suits_open(rule, parameters.size(), degree, end_derivatives, inner)) {
+        return Error::knot_rule_unsuited;
     }
     for (std::size_t i = 0; i <= k; ++i) {
         knots[i] = S{};

@@ -34,19 +34,16 @@ S span_length(const Point<S>& from, const Point<S>& to, int axes, Parameterizati
     return how == Parameterization::chordal ? length : square_root(length);
 }
 
-} // namespace
-
 template <Scalar S>
-Status spline_parameters(std::span<const Point<S>> points, int axes, Parameterization how, bool closed, S domain_length,
-                         std::span<S> parameters) noexcept {
-    const std::size_t count = points.size();
-    if (count < (closed ? 3U : 2U)) {
+Status check_input(std::span<const Point<S>> points, int axes, bool closed, S domain_length,
+                   std::size_t room) noexcept {
+    if (points.size() < (closed ? 3U : 2U)) {
         return Error::too_few_points;
     }
     if (axes < 1 || axes > max_axes) {
         return Error::axes_out_of_range;
     }
-    if (parameters.size() < count) {
+    if (room < points.size()) {
         return Error::storage_too_small;
     }
     if (!(domain_length > S{}) || !usable(domain_length)) {
@@ -64,20 +61,38 @@ Status spline_parameters(std::span<const Point<S>> points, int axes, Parameteriz
             }
         }
     }
-    const std::size_t spans = closed ? count : count - 1U;
-    // In Fixed the sum of the spans must fit: the unit is halved as often as the number of spans may double the longest
-    // one.
+    return {};
+}
+
+// In Fixed the sum of the spans must fit: the unit is halved as often as the number of spans may double the longest
+// one.
+template <Scalar S>
+int halvings_of(std::span<const Point<S>> points, int axes, Parameterization how, std::size_t spans) noexcept {
     int halvings = 0;
     if constexpr (std::same_as<S, Fixed>) {
         S longest{};
         for (std::size_t i = 0; i < spans; ++i) {
-            longest = larger(longest, span_length(points[i], points[(i + 1U) % count], axes, how));
+            longest = larger(longest, span_length(points[i], points[(i + 1U) % points.size()], axes, how));
         }
         while (halvings < 40 && scale2(longest, -halvings) >=
                                     from_integer<S>(1 << 29) / from_integer<S>(static_cast<std::int32_t>(spans))) {
             ++halvings;
         }
     }
+    return halvings;
+}
+
+} // namespace
+
+template <Scalar S>
+Status spline_parameters(std::span<const Point<S>> points, int axes, Parameterization how, bool closed, S domain_length,
+                         std::span<S> parameters) noexcept {
+    const std::size_t count = points.size();
+    if (const Status status = check_input(points, axes, closed, domain_length, parameters.size()); !status.ok()) {
+        return status;
+    }
+    const std::size_t spans = closed ? count : count - 1U;
+    const int halvings = halvings_of(points, axes, how, spans);
     S sum{};
     for (std::size_t i = 0; i < spans; ++i) {
         S length = span_length(points[i], points[(i + 1U) % count], axes, how);

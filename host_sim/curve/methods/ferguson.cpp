@@ -112,6 +112,40 @@ json classes_of(const std::vector<FergusonJoint<S>>& joints, const std::vector<P
     return classes;
 }
 
+/// The points that the curve joins.
+PointList joined_points(const json& input, bool closed) {
+    PointList list = points_in(input, "points", 2);
+    if (closed) {
+        drop_repeated_end(list);
+        while (list.points.size() > 1 && list.points.front() == list.points.back()) { // so does the core
+            list.points.pop_back();
+        }
+        require(list.points.size() < 3 ? Status(Error::too_few_points) : Status());
+    }
+    return list;
+}
+
+/// Tangents at the ends of an open curve: those that are given, or estimated ones.
+std::array<PerAxis<double>, 2> end_tangents(const json& input, const PointList& list,
+                                            const std::vector<FergusonJoint<double>>& joints) {
+    std::array<PerAxis<double>, 2> estimated{};
+    estimate_end_tangents<double>(list.points, joints, estimated[0], estimated[1]);
+    std::array<PerAxis<double>, 2> ends{};
+    ends[0] = vector_in(input, "t_start", list.axes, ends[0]) ? ends[0] : estimated[0];
+    ends[1] = vector_in(input, "t_end", list.axes, ends[1]) ? ends[1] : estimated[1];
+    return ends;
+}
+
+template <Scalar S>
+std::vector<FergusonJoint<S>> joints_of(const std::vector<FergusonJoint<double>>& exact) {
+    const double far = std::same_as<S, Fixed> ? 0x1p17 : 0x1p61; // beyond the range, and S can hold it
+    std::vector<FergusonJoint<S>> joints;
+    for (const FergusonJoint<double>& joint : exact) {
+        joints.push_back({from_double<S>(joint.lambda), from_double<S>(std::clamp(joint.mu, -far, far)), joint.delta});
+    }
+    return joints;
+}
+
 } // namespace
 
 template <Scalar S>
@@ -119,33 +153,14 @@ DescribedCurve describe_ferguson(const json& input) {
     DescribedCurve curve;
     require_known(input, {"points", "delta", "lambda", "mu", "t_start", "t_end", "closed"});
     curve.closed = flag_in(input, "closed", false);
-    PointList list = points_in(input, "points", 2);
-    if (curve.closed) {
-        drop_repeated_end(list);
-        while (list.points.size() > 1 && list.points.front() == list.points.back()) { // so does the core
-            list.points.pop_back();
-        }
-    }
-    if (curve.closed && list.points.size() < 3) {
-        require(Error::too_few_points);
-    }
+    const PointList list = joined_points(input, curve.closed);
     curve.axes = list.axes;
     const std::vector<FergusonJoint<double>> exact = joints_in(input, list, curve.closed);
-    std::array<PerAxis<double>, 2> ends{};
-    if (!curve.closed) {
-        std::array<PerAxis<double>, 2> estimated{};
-        estimate_end_tangents<double>(list.points, exact, estimated[0], estimated[1]);
-        ends[0] = vector_in(input, "t_start", list.axes, ends[0]) ? ends[0] : estimated[0];
-        ends[1] = vector_in(input, "t_end", list.axes, ends[1]) ? ends[1] : estimated[1];
-    }
+    const auto ends = curve.closed ? std::array<PerAxis<double>, 2>{} : end_tangents(input, list, exact);
     PointList scale = list;
     scale.points.insert(scale.points.end(), ends.begin(), ends.end());
     const Unit<S> unit(scale.largest(), 128.0); // 2^17 to 2^18 in Fixed
-    std::vector<FergusonJoint<S>> joints;
-    for (const FergusonJoint<double>& joint : exact) {
-        const double far = std::same_as<S, Fixed> ? 0x1p17 : 0x1p61; // beyond the range, and S can hold it
-        joints.push_back({from_double<S>(joint.lambda), from_double<S>(std::clamp(joint.mu, -far, far)), joint.delta});
-    }
+    const std::vector<FergusonJoint<S>> joints = joints_of<S>(exact);
     const std::vector<Point<S>> points = unit.in(list);
     const std::size_t n = points.size();
     std::vector<Point<S>> in(n);

@@ -85,6 +85,41 @@ Rounding rounding_of(const BezierPiece<double>& piece, const Agreement& agreemen
     return {e, 2.0 * piece.degree * e, 4.0 * piece.degree * std::max(piece.degree - 1, 1) * e};
 }
 
+/// Whether two values agree: relative to the larger one, and beyond the noise.
+bool agree(const Agreement& agreement, double jump, double a, double b, double noise) {
+    return jump <= agreement.relative * std::max(a, b) + noise;
+}
+
+/// Direction and curvature at a joint where both sides have them.
+struct Geometry {
+    bool g1 = false;
+    bool g2 = false;
+    bool abs_kappa = false;
+    double ratio = 0.0; ///< of the first derivatives
+    double curvature_jump = 0.0;
+    double modulus_jump = 0.0;
+};
+
+/// @param c0  whether the points meet
+Geometry geometry_of(const CurveSample& end, const CurveSample& start, const Rounding& e0, const Rounding& e1, bool c0,
+                     const Agreement& agreement) {
+    const double n0 = size(end.first);
+    const double n1 = size(start.first);
+    const double k0 = size(end.curvature);
+    const double k1 = size(start.curvature);
+    const double noise =
+        e0.second / (n0 * n0) + e1.second / (n1 * n1) + 3.0 * (e0.first * k0 / n0 + e1.first * k1 / n1);
+    const AxisVector turn = minus(multiple(1.0 / n1, start.first), multiple(1.0 / n0, end.first));
+    Geometry out;
+    out.ratio = n1 / n0;
+    out.curvature_jump = size(minus(start.curvature, end.curvature));
+    out.modulus_jump = std::fabs(k1 - k0);
+    out.g1 = c0 && size(turn) <= agreement.relative + e0.first / n0 + e1.first / n1;
+    out.g2 = out.g1 && agree(agreement, out.curvature_jump, k0, k1, noise);
+    out.abs_kappa = c0 && agree(agreement, out.modulus_jump, k0, k1, noise);
+    return out;
+}
+
 nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& agreement, std::size_t from,
                                 std::size_t to) {
     const BezierPiece<double>& before = curve.pieces[from];
@@ -99,56 +134,32 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     const AxisVector r1 = multiple(1.0 / h1, start.first);
     const AxisVector q2 = multiple(1.0 / (h0 * h0), end.second);
     const AxisVector r2 = multiple(1.0 / (h1 * h1), start.second);
-    const auto agree = [&agreement](double jump, double a, double b, double noise) {
-        return jump <= agreement.relative * std::max(a, b) + noise;
-    };
     const double d1_jump = size(minus(r1, q1));
     const double d2_jump = size(minus(r2, q2));
     const bool c0 = size(minus(start.point, end.point)) <= 10.0 * std::max(e0.position, e1.position);
-    const bool c1 = c0 && agree(d1_jump, size(q1), size(r1), e0.first / h0 + e1.first / h1);
-    const bool c2 = c1 && agree(d2_jump, size(q2), size(r2), e0.second / (h0 * h0) + e1.second / (h1 * h1));
+    const bool c1 = c0 && agree(agreement, d1_jump, size(q1), size(r1), e0.first / h0 + e1.first / h1);
+    const bool c2 = c1 && agree(agreement, d2_jump, size(q2), size(r2), e0.second / (h0 * h0) + e1.second / (h1 * h1));
     const bool regular = end.regular && start.regular && size(end.first) > e0.first && size(start.first) > e1.first;
-    nlohmann::ordered_json joint;
-    joint["from"] = from;
-    joint["to"] = to;
-    bool g1 = false;
-    bool g2 = false;
-    bool abs_kappa = false;
-    const auto defined = [regular](bool value) {
+    const Geometry geometry = regular ? geometry_of(end, start, e0, e1, c0, agreement) : Geometry{};
+    const auto defined = [regular](auto value) {
         return regular ? nlohmann::ordered_json(value) : nullptr;
     };
-    nlohmann::ordered_json ratio;
-    nlohmann::ordered_json curvature_jump;
-    nlohmann::ordered_json modulus_jump;
-    if (regular) {
-        const double n0 = size(end.first);
-        const double n1 = size(start.first);
-        const AxisVector turn = minus(multiple(1.0 / n1, start.first), multiple(1.0 / n0, end.first));
-        g1 = c0 && size(turn) <= agreement.relative + e0.first / n0 + e1.first / n1;
-        const double k0 = size(end.curvature);
-        const double k1 = size(start.curvature);
-        const double noise =
-            e0.second / (n0 * n0) + e1.second / (n1 * n1) + 3.0 * (e0.first * k0 / n0 + e1.first * k1 / n1);
-        const double jump = size(minus(start.curvature, end.curvature));
-        g2 = g1 && agree(jump, k0, k1, noise);
-        abs_kappa = c0 && agree(std::fabs(k1 - k0), k0, k1, noise);
-        ratio = n1 / n0;
-        curvature_jump = jump;
-        modulus_jump = std::fabs(k1 - k0);
-    }
-    joint["class"] = class_of(c1, c2, regular, g1, g2, g1 && abs_kappa);
-    joint["C0"] = c0;
-    joint["C1"] = c1;
-    joint["C2"] = c2;
-    joint["regular"] = regular;
-    joint["G1"] = defined(g1);
-    joint["G2"] = defined(g2);
-    joint["abs_kappa"] = defined(abs_kappa);
-    joint["length_ratio_d1"] = ratio;
-    joint["d1_jump"] = d1_jump;
-    joint["d2_jump"] = d2_jump;
-    joint["K_jump"] = curvature_jump;
-    joint["abs_kappa_jump"] = modulus_jump;
+    const auto& [g1, g2, abs_kappa, ratio, curvature_jump, modulus_jump] = geometry;
+    nlohmann::ordered_json joint{{"from", from},
+                                 {"to", to},
+                                 {"class", class_of(c1, c2, regular, g1, g2, g1 && abs_kappa)},
+                                 {"C0", c0},
+                                 {"C1", c1},
+                                 {"C2", c2},
+                                 {"regular", regular},
+                                 {"G1", defined(g1)},
+                                 {"G2", defined(g2)},
+                                 {"abs_kappa", defined(abs_kappa)},
+                                 {"length_ratio_d1", defined(ratio)},
+                                 {"d1_jump", d1_jump},
+                                 {"d2_jump", d2_jump},
+                                 {"K_jump", defined(curvature_jump)},
+                                 {"abs_kappa_jump", defined(modulus_jump)}};
     const Result<BetaMeasure<double>> measured = g1 ? measure_joint(before, after) : Error::tangent_vanishes;
     joint["beta1"] = measured.has_value() ? nlohmann::ordered_json(measured->beta.beta1) : nullptr;
     joint["beta2"] = measured.has_value() ? nlohmann::ordered_json(measured->beta.beta2) : nullptr;

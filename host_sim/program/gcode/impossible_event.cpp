@@ -4,14 +4,20 @@
 #include "host_sim/program/program_action.hpp"
 
 #include <fmt/format.h>
+#include <optional>
+#include <string_view>
 
 namespace splinefeed::host {
 
-// What the machine has no output for is refused, rather than left out.
-std::string impossible(const ProgramEvent& event, const GcodeSettings& settings) {
+namespace {
+
+/// What the machine file lacks for an event; empty: nothing. No text: only the simulated machine knows the event.
+std::optional<std::string> missing_for(const ProgramEvent& event, const GcodeSettings& settings) {
     static const ProgramLines none;
     const ProgramLines& lines = settings.lines != nullptr ? *settings.lines : none;
-    std::string missing;
+    const auto unless = [](bool is_there, std::string_view text) {
+        return std::string(is_there ? std::string_view() : text);
+    };
     switch (event.kind) {
     case EventKind::message:
     case EventKind::print:
@@ -26,67 +32,53 @@ std::string impossible(const ProgramEvent& event, const GcodeSettings& settings)
     case EventKind::overrides_on:
     case EventKind::feed_override:
     case EventKind::spindle_override:
-    case EventKind::offsets_changed: return {};
+    case EventKind::offsets_changed: return std::string();
     case EventKind::spindle_speed:
     case EventKind::spindle_clockwise:
     case EventKind::spindle_counterclockwise:
     case EventKind::spindle_stop:
-        if (settings.spindle != nullptr && settings.spindle->is_controlled()) {
-            return {};
-        }
-        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
-                  "enable = { line = ... }, in [spindle]";
-        break;
-    case EventKind::surface_speed:
-        return fmt::format(
-            "{}: only the simulated machine changes the speed of its spindle along a move so far; use G97 "
-            "and S in rpm in the place of G96",
-            action_name(event.kind));
-    case EventKind::mist_on:
-        if (lines.mist) {
-            return {};
-        }
-        missing = "line for this; name it in [coolant.mist]";
-        break;
-    case EventKind::flood_on:
-        if (lines.flood) {
-            return {};
-        }
-        missing = "line for this; name it in [coolant.flood]";
-        break;
+        return unless(settings.spindle != nullptr && settings.spindle->is_controlled(),
+                      "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
+                      "enable = { line = ... }, in [spindle]");
+    case EventKind::mist_on: return unless(lines.mist.has_value(), "line for this; name it in [coolant.mist]");
+    case EventKind::flood_on: return unless(lines.flood.has_value(), "line for this; name it in [coolant.flood]");
     case EventKind::coolant_off:
-        if (lines.mist || lines.flood) {
-            return {};
-        }
-        missing = "coolant; name its line in [coolant.mist] or [coolant.flood]";
-        break;
+        return unless(lines.mist || lines.flood, "coolant; name its line in [coolant.mist] or [coolant.flood]");
     case EventKind::output_on_with_motion:
     case EventKind::output_off_with_motion:
     case EventKind::output_on:
     case EventKind::output_off:
-        if (lines.output(event.number) != nullptr) {
-            return {};
-        }
-        missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
-        break;
+        return unless(lines.output(event.number) != nullptr,
+                      fmt::format("output {0}; name its line in [[output]] with number = {0}", event.number));
     case EventKind::input_wait:
-        if (event.analog) {
-            return fmt::format(
-                "{}: M66 E reads an analog input, and only digital ones are read, M66 P; take it out of the "
-                "program, or add the word to --ignore",
-                action_name(event.kind));
-        }
-        if (lines.input(event.number) != nullptr) {
-            return {};
-        }
-        missing = fmt::format("input {}; name its line in [[input]] with number = {}", event.number, event.number);
-        break;
-    default:
-        return fmt::format("{}: only the simulated machine does this so far; take it out of the program, or add its "
-                           "word to --ignore",
-                           action_name(event.kind));
+        return unless(lines.input(event.number) != nullptr,
+                      fmt::format("input {0}; name its line in [[input]] with number = {0}", event.number));
+    default: return std::nullopt;
     }
-    return fmt::format("{}: the machine file has no {}, or add the word to --ignore", action_name(event.kind), missing);
+}
+
+} // namespace
+
+// What the machine has no output for is refused, rather than left out.
+std::string impossible(const ProgramEvent& event, const GcodeSettings& settings) {
+    const auto refused = [&](std::string_view why) {
+        return fmt::format("{}: {}", action_name(event.kind), why);
+    };
+    if (event.kind == EventKind::surface_speed) {
+        return refused("only the simulated machine changes the speed of its spindle along a move so far; use G97 "
+                       "and S in rpm in the place of G96");
+    }
+    if (event.kind == EventKind::input_wait && event.analog) {
+        return refused("M66 E reads an analog input, and only digital ones are read, M66 P; take it out of the "
+                       "program, or add the word to --ignore");
+    }
+    const std::optional<std::string> missing = missing_for(event, settings);
+    if (!missing) {
+        return refused("only the simulated machine does this so far; take it out of the program, or add its word to "
+                       "--ignore");
+    }
+    return missing->empty() ? std::string()
+                            : refused(fmt::format("the machine file has no {}, or add the word to --ignore", *missing));
 }
 
 } // namespace splinefeed::host
