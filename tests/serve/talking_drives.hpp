@@ -38,7 +38,6 @@ public:
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return false; }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
-    [[nodiscard]] bool serves() const noexcept override { return true; }
     [[nodiscard]] bool halts() const noexcept override { return true; }
     void set_ready(const RunOptions& options) override { options_ = options; }
     [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
