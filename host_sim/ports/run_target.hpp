@@ -70,8 +70,6 @@ public:
     [[nodiscard]] virtual std::string holds() const { return {}; }
     /// Whether this hold was the purpose of the run.
     [[nodiscard]] virtual bool achieved() const { return false; }
-    /// Whether it can be served: many motions, one behind the other, by renew() of its port.
-    [[nodiscard]] virtual bool serves() const noexcept { return false; }
     /// For a machine that is served. What prepare() does from now on, of home and reset.
     virtual void set_ready(const RunOptions& /*options*/) {}
     /// The axes that search together with these, by bits: a drive homes all of its own.

@@ -34,11 +34,13 @@ std::string meant_target(const std::string& target) {
 
 } // namespace
 
-std::string target_help() {
+std::string target_help(bool served) {
     std::string text;
     for (const TargetKind* const kind : kinds) {
-        text += text.empty() ? "" : "; ";
-        text += kind->help;
+        if (kind->serves || !served) {
+            text += text.empty() ? "" : "; ";
+            text += kind->help;
+        }
     }
     return text;
 }

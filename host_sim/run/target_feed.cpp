@@ -12,8 +12,10 @@ using hal::system_clock;
 
 namespace {
 
-constexpr std::uint64_t halt_us = 10 * us_per_s;    // then a hold becomes a quick stop,
-constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for the port any more
+bool is_output(EventKind kind) {
+    return kind == EventKind::output_on_with_motion || kind == EventKind::output_off_with_motion ||
+           kind == EventKind::output_on || kind == EventKind::output_off;
+}
 
 // No sentence is a run that ended well.
 std::string or_unsaid(const std::string& why) {
@@ -101,12 +103,18 @@ void TargetFeed::begin(std::uint64_t done) noexcept {
     completed_ = false;
 }
 
-void TargetFeed::drop() noexcept {
+// M62 to M65 behind what was not executed: the program never came there. Spindle and coolant become as they were told
+// last, which is off, where a program ends.
+void TargetFeed::drop() {
     FeedSegment segment;
     while (ring_.pop(segment)) {
         taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
         ++taken_;
     }
+    const std::lock_guard lock(order_mutex_);
+    std::erase_if(orders_, [reached = executed()](const DueOrder& order) {
+        return order.after > reached && is_output(order.action.kind);
+    });
 }
 
 void TargetFeed::hand_over() {
@@ -149,11 +157,11 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
 // A stop that does not end.
 std::optional<MotionEnd> TargetFeed::insist() {
     const std::uint64_t now_us = system_clock().now_us();
-    if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
+    if (obeyed_ == 1 && now_us > obeyed_us_ + patience_.halt_us) {
         obeyed_ = 2;
         end_outputs();
         port_->quick_stop();
-    } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
+    } else if (obeyed_ == 2 && now_us > obeyed_us_ + patience_.give_up_us) {
         return MotionEnd{MotionEnd::Kind::fault, "interrupted, but not every drive has confirmed that it stands"};
     }
     return std::nullopt;

@@ -34,10 +34,17 @@ class TargetFeed {
 public:
     /// How far the planner may be ahead of the port. [us] More would only delay a hold.
     static constexpr std::uint64_t hand_over_us = 10'000;
+    /// How long a stop may take. [us]
+    struct Patience {
+        std::uint64_t halt_us = 10'000'000;    ///< then a hold becomes a quick stop,
+        std::uint64_t give_up_us = 15'000'000; ///< and then nobody waits for the port any more
+    };
 
-    /// All arguments must outlive it. @param outputs, record  null: there are none
+    /// Target, outputs and record must outlive it. @param outputs, record  null: there are none
     explicit TargetFeed(RunTarget& target, ProgramOutputs* outputs = nullptr, TargetRecord* record = nullptr)
-        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record) {}
+        : TargetFeed(target, outputs, record, Patience{}) {}
+    TargetFeed(RunTarget& target, ProgramOutputs* outputs, TargetRecord* record, const Patience& patience)
+        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record), patience_(patience) {}
     TargetFeed(const TargetFeed&) = delete;
     TargetFeed& operator=(const TargetFeed&) = delete;
 
@@ -69,8 +76,8 @@ public:
     /// Once a millisecond. Nothing: the motion goes on, or has not begun.
     /// @param requests  to stop, by now: the first one holds all axes on the path, the second one stops them at once
     [[nodiscard]] std::optional<MotionEnd> look(int requests);
-    /// Drops what the port has not taken.
-    void drop() noexcept;
+    /// Drops what the port has not taken, and what outputs are told behind segments that were not executed.
+    void drop();
     /// Whether a segment waits for the port.
     [[nodiscard]] bool waits() const noexcept { return !ring_.empty(); }
     /// The first one. @pre waits()
@@ -104,6 +111,7 @@ private:
     hal::MotionPort* port_; // of the target
     ProgramOutputs* outputs_;
     TargetRecord* record_;
+    Patience patience_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // used by the planner only

@@ -13,6 +13,18 @@ namespace splinefeed::host {
 
 namespace {
 
+/// Up to a description. A comma or a blank between digits is of the number, which is none then.
+std::string_view value_of(std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const bool digit_follows = at + 1 < text.size() && text[at + 1] >= '0' && text[at + 1] <= '9';
+        const bool splits = text[at] == ' ' || text[at] == ',';
+        if ((splits && !digit_follows) || text[at] == '\t' || text[at] == '(' || text[at] == ';') {
+            return text.substr(0, at);
+        }
+    }
+    return text;
+}
+
 /// Of a line that has one. In some terminals' files text stands before it.
 std::optional<GrblSetting> setting_of(std::string_view line, std::uint64_t number_of_line) {
     for (std::size_t at = line.find('$'); at != std::string_view::npos; at = line.find('$', at + 1)) {
@@ -21,8 +33,7 @@ std::optional<GrblSetting> setting_of(std::string_view line, std::uint64_t numbe
         const std::string_view rest = trimmed(behind.substr(digits));
         const auto number = read_whole<std::int32_t>(behind.substr(0, digits), 0, 65535);
         if (number && rest.starts_with('=')) {
-            const std::string_view value = trimmed(rest.substr(1));
-            return GrblSetting{*number, std::string(value.substr(0, value.find_first_of(" \t(;,"))), number_of_line};
+            return GrblSetting{*number, std::string(value_of(trimmed(rest.substr(1)))), number_of_line};
         }
     }
     return std::nullopt;
@@ -54,6 +65,9 @@ GrblListing::GrblListing(std::string_view text, const std::string& file) : file_
 }
 
 void GrblListing::add(const GrblSetting& setting) {
+    if (setting.value.find_first_of(" ,") != std::string::npos) {
+        fail(setting, "write its number with a point, and nothing between thousands: 8000.500");
+    }
     const auto [place, is_new] = settings_.emplace(setting.number, setting);
     const GrblSetting& known = place->second;
     if (!is_new && known.value != setting.value) {

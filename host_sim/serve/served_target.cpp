@@ -31,6 +31,7 @@ ServedTarget::ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescr
                            std::uint32_t segment_ticks, const PerAxis<double>& told_mm, MakeOutputs outputs)
     : machine_(&machine), target_(std::move(target)), make_outputs_(std::move(outputs)), outputs_(make_outputs_()),
       feed_(*target_, outputs_.get()), segment_ticks_(segment_ticks) {
+    gives_up_.store(false);
     known_.mm = told_mm;
     find_place();
     thread_ = std::thread([this] { work(); });
@@ -41,8 +42,11 @@ ServedTarget::~ServedTarget() {
 }
 
 std::string ServedTarget::finish() {
-    gives_up_.store(true);
-    leaves_.store(true);
+    {
+        const std::lock_guard lock(mutex_);
+        leaves_.store(true);
+        gives_up_.store(true);
+    }
     if (thread_.joinable()) {
         thread_.join();
     }
@@ -68,6 +72,7 @@ void ServedTarget::submit(const FeedSegment& segment) {
     {
         const std::lock_guard lock(mutex_);
         ++submitted_;
+        known_.axes = all_axes(); // the operator has unlocked what the drives did not know
     }
     rests_ = false;
     feed_.push(segment);
@@ -88,7 +93,7 @@ std::vector<RunTarget::AxisPlace> ServedTarget::places() const {
     std::vector<RunTarget::AxisPlace> out;
     const std::lock_guard lock(mutex_);
     for (const unsigned k : indices(machine_->settings.axes)) {
-        out.push_back({k, known_.places ? std::optional(known_.mm[k]) : std::nullopt});
+        out.push_back({k, (known_.axes >> k & 1U) != 0 ? std::optional(known_.mm[k]) : std::nullopt});
     }
     return out;
 }
@@ -101,7 +106,7 @@ MachineReading ServedTarget::read() noexcept {
     for (const unsigned k : indices(machine_->settings.axes)) {
         out.position[k] = position_from_mm(known_.mm[k]);
     }
-    out.known = known_.places;
+    out.known = known_.axes == all_axes();
     out.homing = known_.homing;
     out.alarm = known_.alarm;
     out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
@@ -116,7 +121,6 @@ void ServedTarget::obey(const ProgramEvent& event) noexcept {
 }
 
 void ServedTarget::home(std::uint32_t axes) noexcept {
-    gives_up_.store(false);
     const std::lock_guard lock(mutex_);
     orders_.home = axes;
     known_.homing = HomingPhase::busy;
@@ -130,9 +134,12 @@ bool ServedTarget::halt() noexcept {
 }
 
 void ServedTarget::quick_stop() noexcept {
-    gives_up_.store(true);
     const std::lock_guard lock(mutex_);
+    if (std::exchange(orders_.home, 0U) != 0) { // not begun
+        known_.homing = HomingPhase::failed;
+    }
     orders_.stops = submitted_ != finished_ ? 2 : orders_.stops;
+    gives_up_.store(true);
 }
 
 void ServedTarget::enable(bool on) noexcept {
@@ -142,7 +149,7 @@ void ServedTarget::enable(bool on) noexcept {
 
 void ServedTarget::reset_faults() noexcept {
     const std::lock_guard lock(mutex_);
-    orders_.opens = true;
+    orders_.opens = orders_.resets = true;
     known_.alarm = Alarm::none;
     known_.sentence.clear();
 }

@@ -61,6 +61,7 @@ private:
         int stops = 0;          ///< as TargetFeed::look
         bool off = false;       ///< the drives
         bool opens = false;     ///< what is closed or has failed
+        bool resets = false;    ///< faults of drives, too
         std::uint32_t home = 0; ///< axes
 
         [[nodiscard]] bool any() const noexcept { return off || opens || home != 0; }
@@ -68,7 +69,7 @@ private:
     /// What the thread knows, for the server's.
     struct Known {
         PerAxis<double> mm{};
-        bool places = false; ///< these are the machine's
+        std::uint32_t axes = 0; ///< by bits: those of which that is the machine's
         HomingPhase homing = HomingPhase::none;
         Alarm alarm = Alarm::none;
         std::string sentence{};
@@ -80,16 +81,22 @@ private:
     [[nodiscard]] Orders take_orders();
     void find_place();
     void begin_first();
-    void make_ready(const FeedSegment& first);
+    [[nodiscard]] std::string make_ready(const FeedSegment& first);
     void end_motion(const MotionEnd& end);
+    void drop_motion();
     void finish_motion();
     void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
     bool look_where(bool at_once);
     void take_place(const FeedSegment& segment);
     [[nodiscard]] FeedSegment standing() const;
+    [[nodiscard]] std::uint32_t all_axes() const noexcept {
+        return (1U << static_cast<unsigned>(machine_->settings.axes)) - 1U;
+    }
+    [[nodiscard]] std::uint32_t known_axes() const;
     void close();
     void reopen();
-    void recover();
+    void recover(bool resets);
+    void renew_outputs();
     void switch_off();
     void find_references(std::uint32_t axes);
     void leave();

@@ -64,6 +64,7 @@ ServedTarget::Orders ServedTarget::take_orders() {
     Orders out = orders_;
     orders_ = {.stops = out.stops};
     busy_ = out.any();
+    gives_up_.store(leaves_.load()); // what was given up is over
     return out;
 }
 
@@ -73,14 +74,10 @@ void ServedTarget::step() {
         switch_off();
     }
     if (orders.opens) {
-        recover();
+        recover(orders.resets);
     }
     if (orders.home != 0) {
         find_references(orders.home);
-    }
-    if (orders.any()) {
-        const std::lock_guard lock(mutex_);
-        busy_ = false;
     }
     if (phase_ == Phase::ready) {
         if (const std::optional<MotionEnd> end = feed_.look(orders.stops)) {
@@ -91,14 +88,12 @@ void ServedTarget::step() {
         return;
     }
     feed_.tend_outputs();
-    if (phase_ == Phase::closed && feed_.waits()) {
-        reopen();
-    }
-    if (phase_ == Phase::open && feed_.waits()) {
-        begin_first();
+    if (phase_ != Phase::failed && !feed_.trouble().empty()) {
+        fail(feed_.trouble(), Alarm::spindle_speed);
+    } else if (feed_.waits() && (phase_ == Phase::failed || orders.stops > 0)) {
+        drop_motion();
     } else if (feed_.waits()) {
-        feed_.drop();
-        finish_motion();
+        begin_first();
     }
 }
 
@@ -113,15 +108,21 @@ void ServedTarget::find_place() {
     }
     phase_ = Phase::open;
     const std::lock_guard lock(mutex_);
-    known_.places = !places.empty();
+    known_.axes = 0;
     for (const RunTarget::AxisPlace& at : places) {
         known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
-        known_.places = known_.places && at.mm.has_value();
+        known_.axes |= at.mm ? 1U << at.axis : 0U;
     }
 }
 
 // Where the motion begins the machine has to stand: else a position would get another name.
 void ServedTarget::begin_first() {
+    if (phase_ == Phase::closed) {
+        reopen();
+    }
+    if (phase_ != Phase::open) {
+        return;
+    }
     const FeedSegment first = feed_.front();
     for (const unsigned k : indices(machine_->settings.axes)) {
         const double counts = static_cast<double>(first.start[k]) / static_cast<double>(units_per_count);
@@ -131,21 +132,31 @@ void ServedTarget::begin_first() {
             return;
         }
     }
-    make_ready(first);
+    const std::string why = make_ready(first);
+    if (!why.empty() && gives_up()) {
+        reopen();
+        drop_motion();
+    } else if (!why.empty()) {
+        fail(why);
+    }
 }
 
-void ServedTarget::make_ready(const FeedSegment& first) {
+// Returns why it is not.
+std::string ServedTarget::make_ready(const FeedSegment& first) {
     target_->set_ready(options_);
     hal::MotionPort& port = target_->port();
     if (const hal::PortFailure failure = port.prepare(first)) {
-        fail(target_->sentence(failure));
-        return;
+        return target_->sentence(failure);
     }
     options_.reset = options_.home = false;
     phase_ = Phase::ready;
     feed_.begin(port.poll().executed);
+    return {};
+}
+
+std::uint32_t ServedTarget::known_axes() const {
     const std::lock_guard lock(mutex_);
-    known_.places = true;
+    return known_.axes;
 }
 
 FeedSegment ServedTarget::standing() const {
@@ -174,22 +185,29 @@ void ServedTarget::switch_off() {
 }
 
 // Behind a fault, or with drives that were off: everything anew, and their faults are reset.
-void ServedTarget::recover() {
-    if (feed_.outputs_ended() || !feed_.trouble().empty()) {
-        feed_.set_outputs(nullptr);
-        outputs_.reset();
-        outputs_ = make_outputs_();
-        feed_.set_outputs(outputs_.get());
+void ServedTarget::recover(bool resets) {
+    if (outputs_ == nullptr || feed_.outputs_ended() || !feed_.trouble().empty()) {
+        renew_outputs();
     }
     if (phase_ != Phase::closed && phase_ != Phase::failed) {
         return;
     }
-    gives_up_.store(leaves_.load());
-    options_.reset = phase_ == Phase::failed;
+    options_.reset = resets;
     reopen();
-    if (phase_ == Phase::open && options_.reset && known_.places) {
-        make_ready(standing());
+    if (phase_ != Phase::open || !resets || known_axes() != all_axes()) {
+        return;
     }
+    if (const std::string why = make_ready(standing()); !why.empty()) {
+        fail(why);
+    }
+}
+
+// Once they have ended they take no order any more.
+void ServedTarget::renew_outputs() {
+    feed_.set_outputs(nullptr);
+    outputs_.reset();
+    outputs_ = make_outputs_();
+    feed_.set_outputs(outputs_.get());
 }
 
 void ServedTarget::reopen() {
@@ -202,31 +220,36 @@ void ServedTarget::reopen() {
     }
 }
 
-// The axes that search stand at 0 behind it, the others where they are.
+// The axes that search stand at 0 behind it, the others where they are. One that does not find its reference may stand
+// anywhere.
 void ServedTarget::find_references(std::uint32_t axes) {
+    const std::uint32_t known = known_axes();
+    const std::uint32_t search = target_->homes_with(axes);
     if (phase_ == Phase::ready || phase_ == Phase::closed) {
         reopen();
     }
+    std::string why;
     FeedSegment found = standing();
-    if (phase_ == Phase::open) {
+    if (phase_ == Phase::open && !gives_up()) {
         options_.home = true;
-        options_.home_axes = target_->homes_with(axes);
+        options_.home_axes = search;
         for (const unsigned k : indices(machine_->settings.axes)) {
-            found.start[k] = (options_.home_axes >> k & 1U) != 0 ? 0 : found.start[k];
+            found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
         }
         found.end = found.start;
-        make_ready(found);
+        why = make_ready(found);
         options_.home = false;
     }
     const bool homed = phase_ == Phase::ready;
     if (homed) {
         take_place(found);
-    } else {
-        phase_ = Phase::closed; // where it stands is not known any more
+    } else if (phase_ == Phase::open) {
+        reopen(); // where it stands now
     }
     const std::lock_guard lock(mutex_);
+    known_.axes = homed ? known | search : known_.axes | (known & ~search);
     known_.homing = homed ? HomingPhase::done : HomingPhase::failed;
-    known_.alarm = Alarm::none; // the controller says that it was not found
+    known_.sentence = known_.alarm == Alarm::none ? why : known_.sentence; // the controller says it
 }
 
 // The end of a segment, to the last digit.
@@ -240,8 +263,9 @@ void ServedTarget::take_place(const FeedSegment& segment) {
 
 void ServedTarget::end_motion(const MotionEnd& end) {
     const FeedSegment last = feed_.last();
-    feed_.drop();
-    gives_up_.store(leaves_.load()); // what was asked for is done
+    if (end.kind != MotionEnd::Kind::complete || !end.why.empty() || feed_.obeyed() > 0) {
+        feed_.drop();
+    } // else what waits is the next motion
     if (!feed_.trouble().empty()) {
         fail(feed_.trouble(), Alarm::spindle_speed);
         return;
@@ -256,7 +280,7 @@ void ServedTarget::end_motion(const MotionEnd& end) {
         for (int look = 0; look < looks && !look_where(true); ++look) {
             system_clock().sleep_us(10 * poll_every_us);
         }
-        if (!known_.places) {
+        if (known_axes() != all_axes()) {
             fail(end.why, Alarm::stopped_in_motion);
             return;
         }
@@ -273,6 +297,9 @@ void ServedTarget::end_motion(const MotionEnd& end) {
         return;
     }
     feed_.begin(target_->port().poll().executed);
+    if (feed_.outputs_ended()) {
+        renew_outputs();
+    }
     finish_motion();
 }
 
@@ -280,21 +307,26 @@ void ServedTarget::fail(const std::string& sentence, Alarm alarm) {
     if (phase_ == Phase::ready) {
         static_cast<void>(look_where(true));
     }
-    feed_.drop();
-    feed_.begin(0);
     phase_ = Phase::failed;
     {
         const std::lock_guard lock(mutex_);
         known_.alarm = alarm;
         known_.sentence = sentence;
     }
+    drop_motion();
+}
+
+void ServedTarget::drop_motion() {
+    feed_.drop();
+    feed_.begin(0);
     finish_motion();
 }
 
+// A stop that comes now is meant for what follows.
 void ServedTarget::finish_motion() {
     const std::lock_guard lock(mutex_);
     finished_ = feed_.taken();
-    orders_.stops = 0;
+    orders_.stops = finished_ == submitted_ ? 0 : orders_.stops;
     known_.speed_mm_s = 0.0;
 }
 
@@ -313,18 +345,18 @@ bool ServedTarget::look_where(bool at_once) {
     const std::vector<RunTarget::AxisPlace> places = target_->places();
     const std::lock_guard lock(mutex_);
     double way_sq = 0.0;
-    bool all = !places.empty();
+    std::uint32_t axes = 0;
     for (const RunTarget::AxisPlace& at : places) {
         const double mm = at.mm.value_or(known_.mm[at.axis]);
         way_sq += (mm - known_.mm[at.axis]) * (mm - known_.mm[at.axis]);
         known_.mm[at.axis] = mm;
-        all = all && at.known().has_value();
+        axes |= at.known() ? 1U << at.axis : 0U;
     }
     known_.speed_mm_s =
         std::sqrt(way_sq) * us_per_s / static_cast<double>(std::max<std::uint64_t>(1, now_us - looked_us_));
     looked_us_ = now_us;
-    known_.places = at_once ? all : known_.places;
-    return all;
+    known_.axes = at_once ? known_.axes & axes : known_.axes;
+    return axes == all_axes();
 }
 
 } // namespace splinefeed::host

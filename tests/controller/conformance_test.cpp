@@ -174,6 +174,8 @@ private:
             }
         } else if (what == "home") {
             machine.home_found = value != 0.0;
+        } else if (what == "known") {
+            machine.known = value != 0.0;
         } else if (what == "spindle") {
             machine.spindle_ms = static_cast<std::uint32_t>(value);
         } else if (what == "probes") {

@@ -69,6 +69,22 @@ TEST_CASE("PVT port, virtual: homing that the user ends stops every drive, with 
     }
 }
 
+TEST_CASE("PVT port, virtual: homing that the user ends stops every drive behind an earlier end, too", "[ports]") {
+    Homing homing(2e6);
+    for (int search = 0; search < 3; ++search) { // the second one begins in phase fault
+        interrupts_us = homing.plant.clock.now_us() + 1'000'000;
+        REQUIRE(homing.prepare());
+        homing.plant.clock.sleep_us(1'000'000);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(homing.plant.port->stop_report(i).state == StopState::confirmed);
+            CHECK(homing.plant.moved_us[i] > interrupts_us - 10'000);
+            CHECK(homing.plant.moved_us[i] <= homing.ended_us);
+        }
+        homing.plant.port->close();
+        REQUIRE_FALSE(homing.plant.port->open());
+    }
+}
+
 TEST_CASE("PVT port, virtual: a stop of homing is repeated while a drive is silent", "[ports]") {
     Homing homing(2e6);
     interrupts_us = homing.began_us + 3'000'000;

@@ -196,6 +196,32 @@ def home(drives):
     require(drives.counts() == [320, 320, 0], f"the shafts stand at {drives.counts()}")
 
 
+def home_ends(drives):
+    """A reset or a door ends the search, behind other motions, too: the shafts stand at once, and the machine goes on from there."""
+    sender, stops = unlocked(drives), []
+    for command, stop, alarm in ((b"$H", b"\x18", "ALARM:6"), (b"$H", b"\x84", "ALARM:7"), (b"$HX", b"\x18", "ALARM:6"), (b"$HX", b"\x18\x18", "ALARM:6")):
+        require(say(sender, b"$H") == "ok", "$H")
+        go(sender, b"G90 G0 X150 Y20")
+        sender.send(command + b"\n")
+        time.sleep(0.4)
+        stops.append((time.monotonic(), command, stop))
+        sender.send(stop)
+        await_line(sender, alarm)
+        if b"\x18" in stop:
+            await_line(sender, "[MSG:'$H'")
+        time.sleep(1.0)
+        require(say(sender, b"$X") == "ok", f"{command}, {stop}: it stays locked: {sender.text}")
+        go(sender, b"G91 G0 X1")
+    sender.close()
+    drives.end()
+    start_s, rows = drives.drives[0].start_s(), drives.drives[0].shaft_rows()
+    for at, command, stop in stops:
+        way = [place for t, place in rows if -0.1 < t + start_s - at < 0.0]
+        still = [place for t, place in rows if 0.2 < t + start_s - at < 0.9]
+        require(abs(way[-1] - way[0]) > 100, f"{command}: it does not search")
+        require(max(still) - min(still) < 1.0, f"{command}, {stop!r}: it moves by {max(still) - min(still)} counts after 0.2 s")
+
+
 def faults(drives):
     """What a drive reports, and a drive that is lost, are alarms; a reset resets the fault, and the place is read anew."""
     sender = unlocked(drives)
@@ -281,12 +307,12 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, faults, spindle, others)}
-DRIVES = {"home": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
+CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, faults, spindle, others)}
+DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 
 # Drives that follow target positions: their profiles, with keys of their addresses, and what of the cases they are for.
-PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds")), "leadshine-pr": ("", ("motion", "holds", "home"))}
+PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds")), "leadshine-pr": ("", ("motion", "holds", "home", "home_ends"))}
 
 
 def main():

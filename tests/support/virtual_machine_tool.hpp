@@ -78,7 +78,7 @@ public:
         }
         if (homing_ == HomingPhase::busy && now_ >= home_at_) {
             homing_ = home_found ? HomingPhase::done : HomingPhase::failed;
-            known = known || home_found;
+            known = known || (home_found && home_axes_ == all_axes);
             stop_at({});
         }
     }
@@ -110,7 +110,8 @@ public:
         touched_.reset();
         away_ = away;
     }
-    void home(std::uint32_t /*axes*/) noexcept override {
+    void home(std::uint32_t axes) noexcept override {
+        home_axes_ = axes;
         homing_ = HomingPhase::busy;
         home_at_ = now_ + 200;
     }
@@ -119,14 +120,25 @@ public:
         return halts_ms > 0;
     }
     void quick_stop() noexcept override {
-        homing_ = homing_ == HomingPhase::busy ? HomingPhase::failed : homing_;
-        stop_at(position_);
+        PerAxis<Position> at = position_;
+        if (homing_ == HomingPhase::busy) { // half way
+            homing_ = HomingPhase::failed;
+            for (Position& axis : at) {
+                axis.raw /= 2;
+            }
+        }
+        stop_at(at);
     }
     void enable(bool on) noexcept override { orders.emplace_back(on ? "on" : "off"); }
-    void reset_faults() noexcept override {}
+    void reset_faults() noexcept override {
+        orders.emplace_back("faults");
+        alarm = alarm == Alarm::drive_fault ? Alarm::none : alarm;
+    }
     void offsets_changed() noexcept override {}
 
 private:
+    static constexpr std::uint32_t all_axes = 7;
+
     // From here on another chain of segments begins.
     void stop_at(const PerAxis<Position>& position) {
         queue_.clear();
@@ -164,6 +176,7 @@ private:
     HomingPhase homing_ = HomingPhase::none;
     std::uint32_t now_ = 0;
     std::uint32_t home_at_ = 0;
+    std::uint32_t home_axes_ = 0;
     std::uint32_t halt_at_ = 0; // 0: it does not halt
     std::uint32_t spindle_at_ = 0;
     double distance_ = 0.0;

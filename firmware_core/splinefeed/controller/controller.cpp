@@ -121,6 +121,7 @@ void Controller::resume() noexcept {
         }
         spindle_.restore();
         closes_ = true;
+        refuses_ = false;
         return;
     }
     if (reading_.alarm != Alarm::none || ending_ != Ending::none) {
@@ -140,6 +141,7 @@ void Controller::open_door() noexcept {
     }
     if (task_ == Task::home) {
         machine_->quick_stop();
+        quick_ = true;
         raise(Alarm::homing_door);
         return;
     }

@@ -44,6 +44,8 @@ void Controller::begin_ending(Ending ending) noexcept {
         quick_ = true;
         ending_ = Ending::reset;
         raise(alarm);
+        forget_lines();
+        spindle_.stop_all();
         return;
     }
     if (ending == Ending::stop) {
@@ -59,9 +61,15 @@ void Controller::begin_ending(Ending ending) noexcept {
     ending_ = ending;
     spindle_.stop_all();
     brake();
-    if (ending == Ending::reset && (sleep_ || reading_.alarm != Alarm::none)) {
-        sleep_ ? machine_->enable(true) : machine_->reset_faults();
-        quick_ = true; // it may stand elsewhere then
+    if (ending != Ending::reset) {
+        return;
+    }
+    quick_ = quick_ || sleep_ || reading_.alarm != Alarm::none; // it may stand elsewhere then
+    if (sleep_) {
+        machine_->enable(true);
+    }
+    if (reading_.alarm != Alarm::none) {
+        machine_->reset_faults();
     }
 }
 
@@ -82,6 +90,8 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
     }
     quick_ = quick_ || stops_itself(alarm);
     held_ = door_ = closes_ = tool_ = false;
+    refused_lines_ = lines_.lines(); // they were sent before
+    refusal_ = LineError::locked;
     if (ending_ == Ending::none) {
         ending_ = Ending::alarm;
         brake();

@@ -272,8 +272,11 @@ bool Controller::finish_home() noexcept {
         refuse(LineError::locked);
         raise(Alarm::homing_not_found, reading_.alarm_sentence);
     } else {
-        locked_ = false;
+        locked_ = !reading_.known && (locked_ || row_of(alarm_).stays); // the other axes, too
         alarm_ = Alarm::none;
+        if (locked_) {
+            say("Axes are still to be homed: '$H'|'$X' to unlock");
+        }
         accept();
     }
     return true;

@@ -24,7 +24,6 @@ public:
 
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
-    [[nodiscard]] bool serves() const noexcept override { return true; }
     void set_ready(const RunOptions& options) override {
         home_ = options.home;
         port_.set_ready(options.home, options.reset, options.home_axes);

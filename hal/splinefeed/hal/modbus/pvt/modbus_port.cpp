@@ -152,6 +152,7 @@ void ModbusPort::set_times(const FeedSegment& first) noexcept {
 PortFailure ModbusPort::prepare(const FeedSegment& first) {
     failure_.reset();
     moves_ = referenced_ = false;
+    begin_anew();
     set_times(first);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const auto reserve_ms = static_cast<std::uint16_t>(times_.reserve_us / 1000.0);
@@ -174,13 +175,18 @@ PortFailure ModbusPort::prepare(const FeedSegment& first) {
     return failure ? failed(*failure) : PortFailure{};
 }
 
-void ModbusPort::begin_motion() noexcept {
+// A port whose motion is over takes no stop any more: not even of a homing that follows.
+void ModbusPort::begin_anew() noexcept {
     update_drives();
-    executed_to_ = drives_.front().client().pushed();
-    complete_ = false;
     stop_.reset();
     phases_.take(ModbusEvent::renewed, now_us_);
     phases_.progress(now_us_);
+}
+
+void ModbusPort::begin_motion() noexcept {
+    begin_anew();
+    executed_to_ = drives_.front().client().pushed();
+    complete_ = false;
     for (PortDrive& drive : drives_) {
         drive.clear_sent();
         drive.client().hold_back(false);

@@ -96,6 +96,7 @@ private:
     [[nodiscard]] PortFailure find_other_master();
     void set_times(const FeedSegment& first) noexcept;
     [[nodiscard]] std::optional<DriveFailure> make_ready();
+    void begin_anew() noexcept;
     void begin_motion() noexcept;
     void take(ModbusEvent event) noexcept;
     void fail(std::size_t drive, DriveProblem problem, ModbusEvent event = ModbusEvent::broken) noexcept;
