@@ -11,7 +11,8 @@ double. Printed: cycle time, largest use of a limit in first, second and third d
 its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
 overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
 a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --set: a line of the INI
-file. --inch: the machine's unit is the inch. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion.
+file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without output 0. --check fails where a
+limit is exceeded by 1e-4, an end is missed, or a period had no motion.
 """
 import argparse
 import importlib.util
@@ -58,7 +59,7 @@ PARAMETER_FILE = sim.var
 [EMCMOT]
 EMCMOT = motmod
 UNLOCK_JOINTS = 0
-COMM_TIMEOUT = 4.0
+COMM_TIMEOUT = 60.0
 SERVO_PERIOD = {period_ns}
 [EMCIO]
 EMCIO = io
@@ -278,7 +279,7 @@ def main():
     parser.add_argument("--axes", default="")
     for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
                                 ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
-                                ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
+                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--inch", action="store_true")
@@ -325,6 +326,9 @@ def main():
                     problem += " a limit is exceeded"
                 if ours and tell[3]:
                     problem += " a period without motion"
+                if options.refused:
+                    went_on = used[0] > 0.0 or result["samples"][:, len(axes) + OTHERS.index("digital-out-00")].any()
+                    problem = f"it went on: {problem}" if went_on else "" if options.refused in problem else f"it says: {problem}"
                 if options.keep:
                     options.keep.mkdir(exist_ok=True)
                     result["samples"].tofile(options.keep / f"{program.stem}.{planner}.{seed}.bin")

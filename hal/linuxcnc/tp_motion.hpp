@@ -58,6 +58,7 @@ private:
     }
     [[nodiscard]] Mm mm_of(const double* position) const noexcept;
     void forget() noexcept;
+    void fail(const char* reason) noexcept;
     void steer(const tpc_input& input) noexcept;
     void plan() noexcept;
     [[nodiscard]] const char* begin_path() noexcept;
@@ -77,7 +78,7 @@ private:
     unsigned ahead_ = 0; // segments that are ready now
     tpc_machine machine_{};
     tpc_figures figures_{};
-    const char* error_ = nullptr;
+    const char* error_ = nullptr; // of this period
 
     std::array<PlannedCell<double>, window_cells> window_;
     std::array<Cell<double>, all_jerk_cells> cells_;
@@ -114,6 +115,7 @@ private:
     double since_change_s_ = 0.0; // of one of them
     bool sent_hold_ = false;
     bool sent_abort_ = false;
+    bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
     bool waits_ = false;    // at standstill before move pushed_
     bool may_begin_ = false;
