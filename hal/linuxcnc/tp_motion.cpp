@@ -197,10 +197,9 @@ const char* TpMotion::begin_path() noexcept {
     base_ = floor_ = pushed_;
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
-    sent_ratio_ = sent_rapids_ = 1.0;
-    since_change_s_ = with_jerk_s;
-    sent_max_ = no_limit_mm_s;
+    sent_abort_ = waits_ = has_now_ = unfinished_ = false;
+    ratio_ = rapids_ = PacedValue(1.0);
+    most_ = PacedValue(no_limit_mm_s);
     return nullptr;
 }
 
@@ -211,34 +210,17 @@ void TpMotion::steer(const tpc_input& input) noexcept {
         trajectory_.abort();
         sent_abort_ = true;
     }
-    const bool hold = input.hold != 0 && !abort;
-    if (hold != sent_hold_) {
-        if (hold) {
-            trajectory_.hold();
-        } else {
-            trajectory_.resume();
-        }
-        sent_hold_ = hold;
+    const double pace_s = limits_.jerk_limited ? with_jerk_s : between_changes_s;
+    const bool stops = input.hold != 0 || !(input.max_feed > 0.0);
+    if (ratio_.take(stops ? 0.0 : input.ratio, machine_.period_s, pace_s)) {
+        trajectory_.override_feed(ratio_.value());
     }
-    since_change_s_ += machine_.period_s;
-    const bool settled = since_change_s_ >= (limits_.jerk_limited ? with_jerk_s : between_changes_s);
-    const auto follows = [&](double asked, double& sent) {
-        if (asked == sent || !(settled || !(asked > 0.0) || !(sent > 0.0))) {
-            return false;
-        }
-        sent = asked;
-        since_change_s_ = 0.0;
-        return true;
-    };
-    if (follows(input.ratio, sent_ratio_)) {
-        trajectory_.override_feed(input.ratio);
-    }
-    if (follows(input.rapids, sent_rapids_)) {
-        trajectory_.override_rapids(input.rapids);
+    if (rapids_.take(input.rapids, machine_.period_s, pace_s)) {
+        trajectory_.override_rapids(rapids_.value());
     }
     const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
-    if (follows(most, sent_max_)) {
-        trajectory_.limit_feed(most);
+    if (most > 0.0 && most_.take(most, machine_.period_s, pace_s)) {
+        trajectory_.limit_feed(most_.value());
     }
 }
 

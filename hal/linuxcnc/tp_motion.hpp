@@ -10,6 +10,7 @@
 #pragma once
 
 #include "tp_core.h"
+#include "tp_paced.hpp"
 
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/jerk_planner.hpp"
@@ -107,13 +108,11 @@ private:
     unsigned ring_count_ = 0;
     FeedSegment now_{}; // the segment that the machine is on
     double in_now_s_ = 0.0;
-    Mm at_{};  // where the machine is
-    Mm end_{}; // where the last queued move ends
-    double sent_ratio_ = 1.0;
-    double sent_rapids_ = 1.0;
-    double sent_max_ = 0.0;
-    double since_change_s_ = 0.0; // of one of them
-    bool sent_hold_ = false;
+    Mm at_{};               // where the machine is
+    Mm end_{};              // where the last queued move ends
+    PacedValue ratio_{1.0}; // 0: held, too
+    PacedValue rapids_{1.0};
+    PacedValue most_{0.0}; // feed, mm/s
     bool sent_abort_ = false;
     bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
