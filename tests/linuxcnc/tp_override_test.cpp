@@ -147,3 +147,29 @@ TEST_CASE("a value is passed on at its pace, and 0 at once", "[linuxcnc]") {
     CHECK(passes(1.0)); // and then what is asked
     CHECK(value.value() == 1.0);
 }
+
+TEST_CASE("of two changes that follow each other the second one comes through in time, too", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        Control control(machine_of(3, 0.00025, jerk));
+        REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
+        const auto until_below = [&](double speed) {
+            int periods = 0;
+            for (; !(control.out.speed < speed) && periods < 10'000; ++periods) {
+                control.period();
+            }
+            return periods * 0.00025;
+        };
+        while (control.places.size() < 1600) {
+            control.period();
+        }
+        REQUIRE(control.out.speed == Approx(50.0));
+        control.input.ratio = 0.9;
+        control.period();
+        control.input.ratio = 0.5;
+        CAPTURE(jerk);
+        // 8 segments of 0.25 ms, or 40 of 1 ms, are ready. The second change waits for the pace of changes, 4 or 100
+        // ms.
+        CHECK(until_below(44.0) < (jerk > 0.0 ? 0.17 : 0.0095));
+        CHECK(until_below(25.1) < 0.15);
+    }
+}
