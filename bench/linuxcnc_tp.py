@@ -11,7 +11,9 @@ double. Printed: cycle time, largest use of a limit in first, second and third d
 its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
 overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
 a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --set: a line of the INI
-file. --inch: the machine's unit is the inch. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion.
+file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without output 0. --indexer: A is a locking
+rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not while it is locked. --check fails where a
+limit is exceeded by 1e-4, an end is missed, or a period had no motion.
 """
 import argparse
 import importlib.util
@@ -58,7 +60,7 @@ PARAMETER_FILE = sim.var
 [EMCMOT]
 EMCMOT = motmod
 UNLOCK_JOINTS = 0
-COMM_TIMEOUT = 4.0
+COMM_TIMEOUT = 60.0
 SERVO_PERIOD = {period_ns}
 [EMCIO]
 EMCIO = io
@@ -114,6 +116,17 @@ net atspeed spindle.0.on => spindle.0.at-speed
 """
 
 
+INDEXER_HAL = """loadrt timedelay count=1
+addf timedelay.0 servo-thread
+setp timedelay.0.on-delay 0.15
+setp timedelay.0.off-delay 0.15
+net unlock joint.3.unlock => timedelay.0.in
+unlinkp sampler.0.pin.{0}
+net unlocked timedelay.0.out => joint.3.is-unlocked => sampler.0.pin.{0}
+"""
+INDEXER_INI = ["JOINT_3.LOCKING_INDEXER=1", "EMCMOT.UNLOCK_JOINTS=8", "AXIS_A.LOCKING_INDEXER_JOINT=3", "AXIS_A.WRAPPED_ROTARY=1"]
+
+
 def units_mm(axes, inch):
     return [25.4 if inch and axis not in "ABC" else 1.0 for axis in axes]
 
@@ -128,12 +141,13 @@ def write_machine(folder, axes, options, tpmod):
             text += AXIS.format(section=section, kind=kind, velocity=VELOCITY / mm, acceleration=ACCELERATION / mm)
         nets += f"net j{i} joint.{i}.motor-pos-cmd => joint.{i}.motor-pos-fb\n"
         nets += f"net p{i} axis.{axis.lower()}.pos-cmd => sampler.0.pin.{i}\n"
-    for setting in options.set: # of two lines for one key the first counts
+    for setting in options.set + (INDEXER_INI if options.indexer else []): # of two lines for one key the first counts
         section, key = setting.split("=")[0].split(".")
         text = text.replace(f"[{section}]\n", f"[{section}]\n{key} = {setting.split('=', 1)[1]}\n")
     n = len(axes)
     (folder / "sim.ini").write_text(text)
-    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 5), cfg="f" * (n + 1) + "sbbs", nets=nets) + (options.hal.read_text() if options.hal else ""))
+    (folder / "sim.hal").write_text(HAL.format(*range(n, n + 5), cfg="f" * (n + 1) + "sbbs", nets=nets) + (options.hal.read_text() if options.hal else "")
+                                    + (INDEXER_HAL.format(n + OTHERS.index("digital-out-00")) if options.indexer else ""))
     (folder / "sim.var").write_text("")
     (folder / "sim.tbl").write_text("T1 P1 D1\n")
     shutil.copy(HERE / "linuxcnc_driver.py", folder / "driver.py")
@@ -194,6 +208,17 @@ def controller_us(samples, axes):
         return "-"
     took = samples[moving, -1] / float(mhz[1])
     return f"{took.mean():.1f}, {numpy.quantile(took, 0.999):.0f}"
+
+
+def indexer_problem(samples, axes):
+    import numpy
+
+    moves = numpy.abs(numpy.diff(samples[:, : len(axes)], axis=0)) > 1e-9
+    unlocked = samples[1:, len(axes) + OTHERS.index("digital-out-00")] != 0
+    a = axes.index("A")
+    return ("" if unlocked.any() and moves[:, a].any() else " the indexer was not unlocked") + (
+        " it moves while it is locked" if (moves[:, a] & ~unlocked).any() else "") + (
+        " another axis moves beside it" if (numpy.delete(moves, a, 1).any(axis=1) & unlocked).any() else "")
 
 
 def random_actions(seed, seconds):
@@ -278,10 +303,11 @@ def main():
     parser.add_argument("--axes", default="")
     for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
                                 ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
-                                ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
+                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--inch", action="store_true")
+    parser.add_argument("--indexer", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     if shutil.which("linuxcnc") is None:
@@ -325,6 +351,11 @@ def main():
                     problem += " a limit is exceeded"
                 if ours and tell[3]:
                     problem += " a period without motion"
+                if options.indexer:
+                    problem += indexer_problem(result["samples"], axes)
+                if options.refused:
+                    went_on = used[0] > 0.0 or result["samples"][:, len(axes) + OTHERS.index("digital-out-00")].any()
+                    problem = f"it went on: {problem}" if went_on else "" if options.refused in problem else f"it says: {problem}"
                 if options.keep:
                     options.keep.mkdir(exist_ok=True)
                     result["samples"].tofile(options.keep / f"{program.stem}.{planner}.{seed}.bin")

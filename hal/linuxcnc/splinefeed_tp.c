@@ -50,6 +50,7 @@ static unsigned begun;        /* moves before it have written their outputs */
 static int locking = -1;      /* joint of an indexer that is to be locked before anything else moves */
 static struct tpc_machine machine;
 static int feeds_synced;      /* whether the newest move with a feed follows the spindle's speed */
+static int failed;            /* the core gave up the queue, and task does not know yet: no move is taken */
 
 static void to_array(const EmcPose *p, double *values) {
     for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
@@ -65,24 +66,20 @@ static void read_limits(double period_s) {
 }
 
 /* ------------------------------------------------------------------ ends and beginnings */
-static void show_rest(TP_STRUCT *tp) {
-    status->distance_to_go = 0.0;
-    status->enables_queued = status->enables_new;
-    status->requested_vel = 0.0;
-    status->current_vel = 0.0;
-#ifdef SPLINEFEED_TP_JERK
-    status->current_acc = status->current_jerk = 0.0;
-#endif
-    status->spindleSync = 0;
-    memset(&status->dtg, 0, sizeof status->dtg);
-    tp->motionType = 0;
-    tp->activeDepth = tp->depth = 0;
-    tp->execId = 0;
-}
-
 void tp_clear_io(TP_STRUCT *tp) { memset(&tp->syncdio, 0, sizeof tp->syncdio); }
 
 unsigned tp_queued(void) { return out.last - out.first; }
+
+/* An error that is not one of a new move: an abort, and task ends its program at this flag. Until it does, moves that it has
+ * sent meanwhile are refused, because they would begin elsewhere. */
+static void give_up(TP_STRUCT *tp, const char *reason) {
+    rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: %s\n", reason);
+    tpAbort(tp);
+    failed = 1;
+    status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
+}
+
+void tp_aborted(void) { failed = 0; }
 
 /* Nothing is queued, and the machine stands. */
 static void all_over(TP_STRUCT *tp) {
@@ -92,7 +89,7 @@ static void all_over(TP_STRUCT *tp) {
     tp->pausing = 0;
     begun = out.last;
     locking = -1;
-    show_rest(tp);
+    tp_show_rest(tp, status);
 }
 
 void tp_state_position(TP_STRUCT *tp) {
@@ -100,7 +97,7 @@ void tp_state_position(TP_STRUCT *tp) {
     to_array(&tp->currentPos, position);
     tpc_set(position);
     out.first = out.pushed = out.last;
-    out.waits = 0;
+    out.waits = failed = 0;
 }
 
 int tpClear(TP_STRUCT *tp) {
@@ -135,7 +132,7 @@ int tpCreate(TP_STRUCT *tp, int size, int id) {
 
 /* ------------------------------------------------------------------ new moves */
 static int refused(TP_STRUCT *tp, const EmcPose *end) {
-    if (tp == 0 || tp->aborting || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
+    if (tp == 0 || tp->aborting || failed || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
     if (tp->synchronized == TC_SYNC_POSITION) {
         rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: moves that follow the spindle's position (G33, G76) are not done\n");
         return TP_ERR_INVALID;
@@ -303,18 +300,6 @@ static int may_begin(TP_STRUCT *tp) {
     return 1;
 }
 
-/* 2.10 shows the acceleration and the jerk along the path, too. */
-static void show_speed(const TP_STRUCT *tp, double speed) {
-#ifdef SPLINEFEED_TP_JERK
-    const double acceleration = (speed - status->current_vel) / tp->cycleTime;
-    status->current_jerk = (acceleration - status->current_acc) / tp->cycleTime;
-    status->current_acc = acceleration;
-#else
-    (void)tp;
-#endif
-    status->current_vel = speed;
-}
-
 static void show_move(TP_STRUCT *tp) {
     const struct told *q = &told[out.first % tpc_capacity];
     tp->depth = (int)(out.last - out.first);
@@ -324,7 +309,7 @@ static void show_move(TP_STRUCT *tp) {
     tp->motionType = q->canon;
     status->enables_queued = q->enables;
     status->requested_vel = q->vel * status->net_feed_scale;
-    show_speed(tp, out.speed);
+    tp_show_speed(tp, status, out.speed);
     status->spindleSync = q->synced;
     double left = 0.0;
     for (int k = 0; k < tpc_axes; ++k) {
@@ -360,20 +345,20 @@ static void run(TP_STRUCT *tp) {
     for (int k = 0; k < machine.axes; ++k) {
         if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
     }
-    if (out.error != 0) rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: %s\n", out.error);
+    if (out.error != 0) give_up(tp, out.error);
     if (tp->aborting) {
         begun = out.last; /* what has not begun writes nothing, and an indexer stays as it is */
         locking = -1;
     }
     begin_moves(tp->aborting ? out.first : before);
     const int over = out.first == out.last;
-    if (over && before != out.last && !tp->aborting) tp->currentPos = told[(out.last - 1) % tpc_capacity].end;
+    if (out.complete) tp->currentPos = told[(out.last - 1) % tpc_capacity].end; /* to the last digit */
     if (!over) {
         show_move(tp);
     } else if (locking == -1) {
         all_over(tp);
     } else {
-        show_rest(tp);
+        tp_show_rest(tp, status);
         tp->depth = tp->activeDepth = 1; /* it is not over before that */
     }
 }

@@ -69,6 +69,7 @@ int tpAbort(TP_STRUCT *tp) {
         tp->pausing = 1;
         tp->aborting = 1;
     }
+    tp_aborted();
     tp_clear_io(tp);
     return TP_ERR_OK;
 }

@@ -50,7 +50,9 @@ struct tpc_output {
     unsigned first, pushed, last; /* sequence numbers: the move under way, the next one that is planned, one behind the
                                      newest. Nothing is queued where first == last, and then the machine stands. */
     int waits;                    /* the machine stands before move `pushed`, until may_begin */
-    const char *error;            /* why nothing moves; 0: nothing is wrong */
+    int complete;                 /* it has come to the end of the newest move, and stands; for one period */
+    const char *error;            /* why the moves are not travelled: it brakes on its path and forgets them; for one
+                                     period. 0: nothing is wrong */
 };
 
 struct tpc_figures {

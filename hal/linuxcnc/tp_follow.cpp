@@ -118,10 +118,12 @@ void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
     output.last = last_;
     output.waits = waits_ ? 1 : 0;
     output.error = error_;
+    error_ = nullptr;
 }
 
 void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     const Mm before = at_;
+    output.complete = 0;
     ++idle_;
     if (planning_) {
         steer(input);
@@ -131,18 +133,18 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         const bool aborted = sent_abort_ && stands() && trajectory_.activity() == Activity::aborted;
         const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
         if (complete) {
+            output.complete = 1;
             at_ = move(last_ - 1U).to; // to the last digit
         }
         if (aborted || complete) {
             forget();
             end_ = at_;
         }
-    } else if (input.abort != 0 || error_ != nullptr) {
+    } else if (input.abort != 0 || failed_) {
         forget();
         end_ = at_;
     }
     tell(before, output);
-    error_ = nullptr;
 }
 
 } // namespace splinefeed::linuxcnc

@@ -38,12 +38,17 @@ void module_count(long long ns);
 void tp_clear_io(TP_STRUCT *tp);
 void tp_state_position(TP_STRUCT *tp); /* the core forgets its moves, and is at currentPos */
 unsigned tp_queued(void);
+void tp_aborted(void); /* task knows of an error */
 
 /* tp_feed.c */
 /* The feed of a move, units/s. */
 double tp_feed(int canon, double vel, double max_vel, const struct state_tag_t *tag, double mm_per_unit);
 /* Writes the overrides of feeds and rapids. rapid: the move under way is one; turns: factor of the feeds. */
 void tp_override(const emcmot_status_t *status, int rapid, double turns, struct tpc_input *in);
+
+/* tp_show.c */
+void tp_show_rest(TP_STRUCT *tp, emcmot_status_t *status);
+void tp_show_speed(const TP_STRUCT *tp, emcmot_status_t *status, double speed); /* of this period, units/s */
 
 /* tp_arc.c */
 /* The angle of an arc from its start to its end about the unit normal n; a and b: its ends from its centre. */

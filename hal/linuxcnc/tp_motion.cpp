@@ -16,6 +16,7 @@ constexpr int fewest_ahead = 3;           // segments that are ready: two are ne
 constexpr int probing_with_jerk = 20;     // the least that a search for a stop usually needs
 constexpr unsigned part = 16;             // steps of planning between two looks at the clock
 constexpr double no_limit_mm_s = 65536.0;
+constexpr double most_feed_mm_s = 10'000.0; // that MotionLimits accepts
 constexpr double at_rest = 0.3;             // of the time without a new move: a stop more costs less there
 constexpr double between_changes_s = 0.004; // of an override that changes all the time, as an adaptive feed may
 constexpr double with_jerk_s = 0.1;         // a search for each
@@ -38,7 +39,7 @@ MachineSettings settings_of(const tpc_machine& machine) noexcept {
         segment_s = machine.jerk[k] > 0.0 ? larger(segment_s, least_segment_s) : segment_s;
         out.max_feed_mm_s += axis.max_velocity_mm_s * axis.max_velocity_mm_s;
     }
-    out.max_feed_mm_s = std::sqrt(out.max_feed_mm_s);
+    out.max_feed_mm_s = smaller(most_feed_mm_s, std::sqrt(out.max_feed_mm_s)); // each axis may be as fast as that
     out.sample_period_us = static_cast<int>(segment_s * 1e6 + 0.5);
     return out;
 }
@@ -86,8 +87,17 @@ Mm TpMotion::mm_of(const double* position) const noexcept {
 void TpMotion::forget() noexcept {
     first_ = pushed_ = last_;
     ring_head_ = ring_count_ = 0;
-    planning_ = waits_ = has_now_ = unfinished_ = false;
+    planning_ = waits_ = has_now_ = unfinished_ = failed_ = false;
     in_now_s_ = 0.0;
+}
+
+// Whatever the core refuses: the machine brakes on its path, or stays where it is, and nothing else of what is queued
+// is travelled. Without that, what comes behind a refused move would begin elsewhere.
+void TpMotion::fail(const char* reason) noexcept {
+    if (!failed_) {
+        error_ = reason;
+        failed_ = true;
+    }
 }
 
 void TpMotion::set(const double* position) noexcept {
@@ -108,7 +118,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
     bool linear = false;
     double length_sq = 0.0;
     for (const unsigned k : indices(machine_.axes)) {
-        if (!position_representable(out.to[k])) {
+        if (!position_representable(out.to[k]) || !position_representable(end_[k])) {
             return static_cast<int>(Error::position_out_of_range);
         }
         element.to[k] = position_from_mm(out.to[k]);
@@ -154,8 +164,11 @@ int TpMotion::add(const tpc_move& from) noexcept {
 void TpMotion::begin(const tpc_machine& machine) noexcept {
     machine_ = machine;
     share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
-    error_ = begin_path();
-    planning_ = error_ == nullptr;
+    const char* const reason = begin_path();
+    planning_ = reason == nullptr;
+    if (!planning_) {
+        fail(reason);
+    }
 }
 
 // What is wrong; nullptr: nothing.
@@ -184,47 +197,30 @@ const char* TpMotion::begin_path() noexcept {
     base_ = floor_ = pushed_;
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_hold_ = sent_abort_ = waits_ = has_now_ = unfinished_ = false;
-    sent_ratio_ = sent_rapids_ = 1.0;
-    since_change_s_ = with_jerk_s;
-    sent_max_ = no_limit_mm_s;
+    sent_abort_ = waits_ = has_now_ = unfinished_ = false;
+    ratio_ = rapids_ = PacedValue(1.0);
+    most_ = PacedValue(no_limit_mm_s);
     return nullptr;
 }
 
 void TpMotion::steer(const tpc_input& input) noexcept {
     may_begin_ = input.may_begin != 0;
-    if (input.abort != 0 && !sent_abort_) {
+    const bool abort = input.abort != 0 || failed_;
+    if (abort && !sent_abort_) {
         trajectory_.abort();
         sent_abort_ = true;
     }
-    const bool hold = input.hold != 0 && input.abort == 0;
-    if (hold != sent_hold_) {
-        if (hold) {
-            trajectory_.hold();
-        } else {
-            trajectory_.resume();
-        }
-        sent_hold_ = hold;
+    const double pace_s = limits_.jerk_limited ? with_jerk_s : between_changes_s;
+    const bool stops = input.hold != 0 || !(input.max_feed > 0.0);
+    if (ratio_.take(stops ? 0.0 : input.ratio, machine_.period_s, pace_s)) {
+        trajectory_.override_feed(ratio_.value());
     }
-    since_change_s_ += machine_.period_s;
-    const bool settled = since_change_s_ >= (limits_.jerk_limited ? with_jerk_s : between_changes_s);
-    const auto follows = [&](double asked, double& sent) {
-        if (asked == sent || !(settled || !(asked > 0.0) || !(sent > 0.0))) {
-            return false;
-        }
-        sent = asked;
-        since_change_s_ = 0.0;
-        return true;
-    };
-    if (follows(input.ratio, sent_ratio_)) {
-        trajectory_.override_feed(input.ratio);
-    }
-    if (follows(input.rapids, sent_rapids_)) {
-        trajectory_.override_rapids(input.rapids);
+    if (rapids_.take(input.rapids, machine_.period_s, pace_s)) {
+        trajectory_.override_rapids(rapids_.value());
     }
     const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
-    if (follows(most, sent_max_)) {
-        trajectory_.limit_feed(most);
+    if (most > 0.0 && most_.take(most, machine_.period_s, pace_s)) {
+        trajectory_.limit_feed(most_.value());
     }
 }
 
@@ -262,7 +258,7 @@ bool TpMotion::push_one(bool release) noexcept {
         next.element.stop_at_end = true;
     }
     if (const Status pushed = path_->push(next.element); !pushed.ok()) {
-        error_ = describe(pushed.error()); // never: add() has asked
+        fail(describe(pushed.error())); // never: add() has asked
         return false;
     }
     waits_ = false;
@@ -315,6 +311,9 @@ void TpMotion::plan() noexcept {
                 return;
             }
         } else if (pull != Pull::starved) {
+            if (const Status path = trajectory_.status(); !path.ok()) {
+                fail(describe(path.error()));
+            }
             return;
         } else if (!push_moves()) {
             if (ring_count_ > 1) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "tp_core.h"
+#include "tp_paced.hpp"
 
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/jerk_planner.hpp"
@@ -58,6 +59,7 @@ private:
     }
     [[nodiscard]] Mm mm_of(const double* position) const noexcept;
     void forget() noexcept;
+    void fail(const char* reason) noexcept;
     void steer(const tpc_input& input) noexcept;
     void plan() noexcept;
     [[nodiscard]] const char* begin_path() noexcept;
@@ -77,7 +79,7 @@ private:
     unsigned ahead_ = 0; // segments that are ready now
     tpc_machine machine_{};
     tpc_figures figures_{};
-    const char* error_ = nullptr;
+    const char* error_ = nullptr; // of this period
 
     std::array<PlannedCell<double>, window_cells> window_;
     std::array<Cell<double>, all_jerk_cells> cells_;
@@ -106,14 +108,13 @@ private:
     unsigned ring_count_ = 0;
     FeedSegment now_{}; // the segment that the machine is on
     double in_now_s_ = 0.0;
-    Mm at_{};  // where the machine is
-    Mm end_{}; // where the last queued move ends
-    double sent_ratio_ = 1.0;
-    double sent_rapids_ = 1.0;
-    double sent_max_ = 0.0;
-    double since_change_s_ = 0.0; // of one of them
-    bool sent_hold_ = false;
+    Mm at_{};               // where the machine is
+    Mm end_{};              // where the last queued move ends
+    PacedValue ratio_{1.0}; // 0: held, too
+    PacedValue rapids_{1.0};
+    PacedValue most_{0.0}; // feed, mm/s
     bool sent_abort_ = false;
+    bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
     bool waits_ = false;    // at standstill before move pushed_
     bool may_begin_ = false;

@@ -16,6 +16,9 @@ bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --che
 bench --planner stock,module
 bench --planner stock,module --inch
 bench --planner module --period 250
+/usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=2000000 \
+    --refused "max_acceleration_mm_s2 must lie between 0.1 and 1000000"
 for jerk in 0 30000; do
+    /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/indexer.ngc --check --planner module --indexer --jerk "$jerk"
     bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10
 done

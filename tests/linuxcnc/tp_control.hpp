@@ -50,7 +50,7 @@ inline tpc_move line_to(double x, double y, double feed, double tolerance = 0.01
 /// LinuxCNC around the module: a move and a period at a time.
 class Control {
 public:
-    explicit Control(const tpc_machine& machine) : machine_(machine), motion_(std::make_unique<TpMotion>()) {
+    explicit Control(const tpc_machine& of) : machine(of), motion_(std::make_unique<TpMotion>()) {
         motion_->create({look, 0.1, machine.jerk[0] > 0.0 ? 40 : 8, 0.01}, machine);
         const double zero[tpc_axes] = {};
         motion_->set(zero);
@@ -62,12 +62,16 @@ public:
     }
     void period() {
         if (motion_->begins() && input.abort == 0) {
-            motion_->begin(machine_);
+            motion_->begin(machine);
         }
         motion_->run(input, out);
         places.push_back({out.position[0], out.position[1], out.position[2]});
         aborted = aborted || input.abort != 0;
         input.abort = out.first == out.last ? 0 : input.abort;
+    }
+    void set(double x) {
+        const double position[tpc_axes] = {x};
+        motion_->set(position);
     }
     void until_over() {
         for (int n = 0; n < 1'000'000 && out.first != out.last; ++n) {
@@ -78,16 +82,16 @@ public:
     /// The largest use of a limit of the axes.
     [[nodiscard]] double use() const {
         double most = 0.0;
-        const double t = machine_.period_s;
+        const double t = machine.period_s;
         for (std::size_t i = 3; i < places.size(); ++i) {
             for (unsigned k = 0; k < 3; ++k) {
                 const auto d = [&](std::size_t n) {
                     return places[n][k] - places[n - 1][k];
                 };
-                most = std::max(most, std::fabs(d(i)) / t / machine_.velocity[k]);
-                most = std::max(most, std::fabs(d(i) - d(i - 1)) / (t * t) / machine_.acceleration[k]);
-                if (machine_.jerk[k] > 0.0) {
-                    most = std::max(most, std::fabs(d(i) - 2.0 * d(i - 1) + d(i - 2)) / (t * t * t) / machine_.jerk[k]);
+                most = std::max(most, std::fabs(d(i)) / t / machine.velocity[k]);
+                most = std::max(most, std::fabs(d(i) - d(i - 1)) / (t * t) / machine.acceleration[k]);
+                if (machine.jerk[k] > 0.0) {
+                    most = std::max(most, std::fabs(d(i) - 2.0 * d(i - 1) + d(i - 2)) / (t * t * t) / machine.jerk[k]);
                 }
             }
         }
@@ -99,9 +103,9 @@ public:
     tpc_output out{};
     std::vector<std::array<double, 3>> places;
     bool aborted = false; // at any time
+    tpc_machine machine;  // when the next path begins
 
 private:
-    tpc_machine machine_;
     std::unique_ptr<TpMotion> motion_;
 };
 

@@ -7,10 +7,6 @@
 #include "support/bezier_paths.hpp"
 #include "support/rounds.hpp"
 
-#include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
-
-#include <string>
-
 using namespace linuxcnc_test;
 using splinefeed_test::first_round;
 using splinefeed_test::Random;
@@ -144,13 +140,6 @@ TEST_CASE("moves of no length are left out, and what cannot be is refused before
     CHECK(control.add(arc) == static_cast<int>(splinefeed::Error::arc_invalid));
     control.period();
     CHECK(control.places.back()[0] == 0.0);
-    tpc_machine standing = machine_of(3, 0.001, 0.0); // an INI file without a velocity
-    standing.velocity[1] = 0.0;
-    Control refused(standing);
-    REQUIRE(refused.add(line_to(1.0, 0.0, 50.0)) == 0);
-    refused.period();
-    CHECK(std::string(refused.out.error) == splinefeed::describe(splinefeed::LimitError::velocity_out_of_range));
-    CHECK(refused.out.first == refused.out.last);
 }
 
 TEST_CASE("a move that waits for the spindle begins when it may, after a stop", "[linuxcnc]") {

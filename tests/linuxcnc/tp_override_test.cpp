@@ -98,3 +98,78 @@ TEST_CASE("a feed that changes in every period is followed", "[linuxcnc]") {
         CHECK(control.use() <= 1.0001);
     }
 }
+
+TEST_CASE("a feed that is on and off in turn, from period to period, moves the machine with its mean", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        for (const double period_s : {0.001, 0.00025}) {
+            for (const auto& off : {tpc_input{0.0, 1.0, 1e6, 0, 0, 0}, tpc_input{0.05, 1.0, 1e6, 0, 0, 0},
+                                    tpc_input{1.0, 1.0, 0.0, 0, 0, 0}, tpc_input{1.0, 1.0, 1e6, 1, 0, 0}}) {
+                for (const int half : {1, 3}) { // periods
+                    Control control(machine_of(3, period_s, jerk));
+                    REQUIRE(control.add(line_to(40.0, 0.0, 50.0)) == 0);
+                    REQUIRE(control.add(line_to(40.0, 30.0, 50.0)) == 0);
+                    int periods = 0;
+                    while (control.out.first != control.out.last && periods * period_s < 5.0) {
+                        control.input = periods++ / half % 2 == 1 ? off : tpc_input{1.0, 1.0, 1e6, 0, 0, 0};
+                        control.period();
+                    }
+                    CAPTURE(jerk, period_s, off.ratio, off.max_feed, off.hold, half);
+                    CHECK(periods * period_s < 4.0); // 2.8 at 25 mm/s, and what late planning costs
+                    CHECK(periods * period_s > 2.5); // it does not ignore half of what it is told
+                    CHECK(control.out.position[1] == 30.0);
+                    CHECK(control.use() <= 1.0001);
+                    CHECK(control.figures().late == 0);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("a value is passed on at its pace, and 0 at once", "[linuxcnc]") {
+    PacedValue value(1.0);
+    const auto passes = [&](double asked) {
+        return value.take(asked, 0.001, 0.0045);
+    };
+    CHECK_FALSE(passes(1.0));
+    CHECK(passes(0.5)); // the first change
+    CHECK_FALSE(passes(0.7));
+    CHECK_FALSE(passes(0.9));
+    CHECK(passes(0.0)); // a stop
+    CHECK(value.value() == 0.0);
+    for (const double asked : {1.0, 0.0, 1.0, 1.0}) { // shortly behind it: it waits
+        CHECK_FALSE(passes(asked));
+    }
+    CHECK(passes(1.0));
+    CHECK(value.value() == Approx(0.8)); // the mean
+    for (int n = 0; n < 4; ++n) {
+        CHECK_FALSE(passes(1.0));
+    }
+    CHECK(passes(1.0)); // and then what is asked
+    CHECK(value.value() == 1.0);
+}
+
+TEST_CASE("of two changes that follow each other the second one comes through in time, too", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        Control control(machine_of(3, 0.00025, jerk));
+        REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
+        const auto until_below = [&](double speed) {
+            int periods = 0;
+            for (; !(control.out.speed < speed) && periods < 10'000; ++periods) {
+                control.period();
+            }
+            return periods * 0.00025;
+        };
+        while (control.places.size() < 1600) {
+            control.period();
+        }
+        REQUIRE(control.out.speed == Approx(50.0));
+        control.input.ratio = 0.9;
+        control.period();
+        control.input.ratio = 0.5;
+        CAPTURE(jerk);
+        // 8 segments of 0.25 ms, or 40 of 1 ms, are ready. The second change waits for the pace of changes, 4 or 100
+        // ms.
+        CHECK(until_below(44.0) < (jerk > 0.0 ? 0.17 : 0.0095));
+        CHECK(until_below(25.1) < 0.15);
+    }
+}

@@ -247,7 +247,6 @@ Pull FeedPlan<S>::fill(WorkBudget& work) noexcept {
 template <Scalar S>
 Pull FeedPlan<S>::plan(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (!pass_.running() || window_.size() == 0) {
-        pass_.cancel(); // of a window that was travelled meanwhile
         const Pull pull = fill(work);
         if (window_.size() == 0 || pull == Pull::busy) {
             return pull;
@@ -306,7 +305,8 @@ bool FeedPlan<S>::go_on(UnderrunPolicy underrun) noexcept {
     }
     committed_ = larger<std::size_t>(committed_, 1);
     const S exit_sq = at_ == S{} ? front().exit_sq : wanted_exit_;
-    wanted_exit_ = smaller(smaller(exit_sq, reachable_exit()), wanted_sq());
+    wanted_exit_ =
+        smaller(smaller(exit_sq, reachable_exit()), wanted_sq()); // a new K may be smaller by its last digits
     return true;
 }
 
