@@ -94,6 +94,8 @@ private:
     void refuse_block(const BlockStatus& status) noexcept;
     void accept() noexcept;
     [[nodiscard]] bool answers_nobody() noexcept;
+    [[nodiscard]] bool waits_for_step() const noexcept;
+    void switch_single_block() noexcept;
     void forget_lines() noexcept {
         lines_.clear();
         refused_lines_ = of_another_ = 0;
@@ -154,6 +156,8 @@ private:
     bool check_ = false;
     bool sleep_ = false;
     bool tool_ = false;
+    bool single_ = false; // block by block:
+    bool steps_ = false;  // the next one may begin
     bool jogging_ = false;
     bool touched_ = false; // the probe's move ends
     bool rests_ = false;   // the line's next item needs the machine at rest

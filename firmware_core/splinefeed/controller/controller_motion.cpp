@@ -57,7 +57,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
 // Whether the motion shall not wait for more lines.
 bool Controller::is_late(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
-    if (waits || ending_ != Ending::none || rests_ || motion_->left_travel()) {
+    if (waits || ending_ != Ending::none || rests_ || single_ || motion_->left_travel()) {
         return true;
     }
     if (!motion_->at_rest()) {
@@ -95,9 +95,10 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$"))) {
+    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$")) || waits_for_step()) {
         return false;
     }
+    steps_ = false;
     lines_.take(line_);
     execute_line();
     return true;
