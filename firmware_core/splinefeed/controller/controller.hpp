@@ -70,7 +70,7 @@ private:
     friend struct DollarCommands;
 
     /// What is done for a line that was taken.
-    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, probe, home };
+    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, input, probe, home };
     /// Why the motion comes to its end.
     enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
 
@@ -109,6 +109,7 @@ private:
     [[nodiscard]] bool carry_out() noexcept;
     void carry_out(const ProgramEvent& event) noexcept;
     void end_task() noexcept;
+    void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;
     [[nodiscard]] bool finish_home() noexcept;

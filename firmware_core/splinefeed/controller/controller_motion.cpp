@@ -114,9 +114,13 @@ bool Controller::go_on() noexcept {
         }
         break;
     case Task::spindle:
+    case Task::input:
         reading_ = machine_->read();
         if (!reading_.spindle_ready) {
             return false;
+        }
+        if (task_ == Task::input) {
+            take_input();
         }
         break;
     case Task::probe: return finish_probe();
@@ -185,10 +189,15 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         motion_->hold();
         say("Program paused: '~' goes on");
         return;
-    case EventKind::input_wait: // what depends on the answer is the operator's to decide
+    case EventKind::input_wait:
+        if (!event.analog && machine_->has_input(event.number)) {
+            machine_->obey(event);
+            task_ = Task::input;
+            return;
+        }
         held_ = true;
         motion_->hold();
-        say("M66: no input is read here: '~' goes on, a reset ends the program");
+        say("M66: there is no input of this number: '~' goes on, a reset ends the program");
         return;
     case EventKind::tool_change:
         tool_ = true;
@@ -207,6 +216,16 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         machine_->obey(event);
     } else if (event.stops) {
         task_ = Task::spindle;
+    }
+}
+
+// What depends on an input that did not come is the operator's to decide.
+void Controller::take_input() noexcept {
+    motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
+    if (reading_.input < 0) {
+        held_ = true;
+        motion_->hold();
+        say("M66: its input has not come in time: '~' goes on, a reset ends the program");
     }
 }
 
