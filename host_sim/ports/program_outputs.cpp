@@ -5,7 +5,9 @@
 
 namespace splinefeed::host {
 
+// A program waits for its answer: whoever orders before it comes has given that program up.
 void ProgramOutputs::act(const ProgramAction& action) {
+    end_question();
     if (action.spindle && spindle_ != nullptr) {
         spindle_->order(action.spindle->direction, action.spindle->rpm);
     }
@@ -30,6 +32,14 @@ void ProgramOutputs::ask(const ProgramAction& action) {
     }
 }
 
+void ProgramOutputs::end_question() {
+    if (question_) {
+        asked_->unwatch();
+        question_.reset();
+        asks_.store(false);
+    }
+}
+
 void ProgramOutputs::update() {
     if (spindle_ != nullptr) {
         spindle_->update();
@@ -40,10 +50,8 @@ void ProgramOutputs::update() {
     const auto reading = asked_->take();
     const auto answer = reading ? question_->take(reading->active, reading->asked_us) : std::nullopt;
     if (answer) {
-        asked_->unwatch();
-        question_.reset();
         answer_.store(*answer);
-        asks_.store(false);
+        end_question();
     }
 }
 

@@ -57,6 +57,7 @@ public:
 
 private:
     void ask(const ProgramAction& action);
+    void end_question();
     [[nodiscard]] std::string unconfirmed() const;
 
     std::unique_ptr<RunSpindle> spindle_;

@@ -48,6 +48,11 @@ bool TargetFeed::carried_out() const {
     return orders_.empty() && (outputs_ == nullptr || outputs_->reached());
 }
 
+int TargetFeed::answer() const {
+    const std::lock_guard lock(order_mutex_);
+    return outputs_ != nullptr ? outputs_->answer() : 0;
+}
+
 void TargetFeed::end_outputs() {
     if (outputs_ != nullptr) {
         outputs_->end();

@@ -28,6 +28,7 @@ constexpr Word words[] = {
     {"resume", "~", false, "go on"},
     {"reset", "\x18", true, "brake, and forget the program; twice: stop at once"},
     {"cancel", "\x85", true, "end a jog"},
+    {"single", "\x89", false, "block by block, on or off: resume executes the next line"},
     {"home", "$H\n", false, "home all axes"},
     {"unlock", "$X\n", false, "end an alarm"},
     {"settings", "$$\n", false, "the machine's numbers"},

@@ -14,6 +14,7 @@ namespace {
 
 ProgramAction action_of(const ProgramEvent& event) {
     ProgramAction out{.kind = event.kind, .number = event.number, .value = number_of(event.value), .text = {}};
+    out.wait = event.wait;
     switch (event.kind) {
     case EventKind::spindle_clockwise: out.spindle = SpindleTurn{1, out.value}; break;
     case EventKind::spindle_counterclockwise: out.spindle = SpindleTurn{-1, out.value}; break;
@@ -102,6 +103,7 @@ MachineReading ServedTarget::read() noexcept {
     MachineReading out;
     out.stands = stands();
     out.spindle_ready = feed_.carried_out();
+    out.input = feed_.answer();
     const std::lock_guard lock(mutex_);
     for (const unsigned k : indices(machine_->settings.axes)) {
         out.position[k] = position_from_mm(known_.mm[k]);

@@ -47,6 +47,9 @@ public:
 
     MachineReading read() noexcept override;
     void obey(const ProgramEvent& event) noexcept override;
+    [[nodiscard]] bool has_input(std::int32_t number) const noexcept override {
+        return machine_->lines.input(number) != nullptr;
+    }
     void watch_probe(bool /*away*/) noexcept override {}
     void home(std::uint32_t axes) noexcept override;
     bool halt() noexcept override;

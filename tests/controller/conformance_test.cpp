@@ -176,6 +176,8 @@ private:
             machine.home_found = value != 0.0;
         } else if (what == "known") {
             machine.known = value != 0.0;
+        } else if (what == "input") {
+            machine.input = static_cast<std::int32_t>(value);
         } else if (what == "spindle") {
             machine.spindle_ms = static_cast<std::uint32_t>(value);
         } else if (what == "probes") {

@@ -16,6 +16,7 @@ import time
 
 from sender import Failed, Sender, ServedDrives
 from case_runs import pymodbus_missing
+from input_runs import Module
 from spindle_runs import Vfd
 
 STEPS = 320.0
@@ -288,6 +289,43 @@ def spindle(drives):
         vfd.process.wait()
 
 
+def inputs(drives):
+    """M66 waits for an input of a module, and answers when it has come or its time is over; a reset ends the wait."""
+    if why := pymodbus_missing():
+        print(f"inputs is left out: {why}")
+        return
+    module = Module(drives.folder)
+    try:
+        text = pathlib.Path(drives.machine).read_text()
+        pathlib.Path(drives.machine).write_text(
+            text + f'[[module]]\nname = "io"\naddress = "{module.address}"\n[[input]]\nnumber = 2\nmodule = "io"\ninput = 2\n')
+        sender = unlocked(drives)
+        sender.send(b"G1 X2 F3000\nM66 P2 L3 Q20\nG1 X4\n")
+        require(sender.line() == "ok", "no answer")
+        time.sleep(1.0)
+        require(sender.report().startswith("<Run") and sender.place()[0] == 2.0, "it does not wait")
+        module.turn(2)
+        require(sender.line() == "ok" and sender.line() == "ok" and sender.until("Idle") and sender.place()[0] == 4.0, "it does not go on")
+        begun = time.monotonic()
+        require(say(sender, b"M66 P2 L4 Q0.5") == "ok" and 0.4 < time.monotonic() - begun < 3.0, "the time-out")
+        sender.until("Hold:0")
+        sender.send(b"~")
+        sender.send(b"M66 P2 L4 Q20\nG1 X9\n")
+        time.sleep(0.3)
+        sender.send(b"\x18")
+        await_line(sender, "Grbl 1.1")
+        require(say(sender, b"M3 S100") == "ok" and sender.place()[0] == 4.0, "a reset does not end the wait")
+        sender.send(b"M66 P1 L3 Q20\n")
+        require("M66: there is no input" in sender.line() and sender.line() == "ok", "an input that the machine does not have")
+        sender.until("Hold:0")
+        sender.send(b"\x18")
+        sender.close()
+        drives.end()
+    finally:
+        module.process.kill()
+        module.process.wait()
+
+
 def others(drives):
     """Who comes second is refused, and told who is first; with its end that is over."""
     program = pathlib.Path(drives.folder, "line.csv")
@@ -307,7 +345,7 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, faults, spindle, others)}
+CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, faults, spindle, inputs, others)}
 DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 

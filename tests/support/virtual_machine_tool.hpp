@@ -56,6 +56,7 @@ public:
     Alarm alarm = Alarm::none;
     bool known = true;
     bool home_found = true;
+    std::int32_t input = 0;          // what input 1 answers, after spindle_ms
     std::uint32_t spindle_ms = 0;    // that it takes to its speed
     std::uint32_t halts_ms = 0;      // that it takes to halt by itself; 0: it does not
     std::vector<std::string> orders; // what it was told
@@ -92,6 +93,7 @@ public:
         out.stands = queue_.empty() && !moves_;
         out.known = known;
         out.spindle_ready = now_ >= spindle_at_;
+        out.input = input;
         const bool contact = plate && to_mm(position_[2]) <= *plate;
         out.inputs = inputs | (contact ? InputBits::probe : 0U);
         out.touched = touched_.has_value();
@@ -106,6 +108,7 @@ public:
                          std::to_string(event.value.raw / Decimal::one));
         spindle_at_ = now_ + spindle_ms;
     }
+    [[nodiscard]] bool has_input(std::int32_t number) const noexcept override { return number == 1; }
     void watch_probe(bool away) noexcept override {
         touched_.reset();
         away_ = away;

@@ -25,7 +25,8 @@ struct MachineReading {
     PerAxis<Position> position{}; ///< where the axes are
     bool stands = true;           ///< all segments that were submitted are executed, and nothing moves
     bool known = true;            ///< the position is that of the machine; false: it has to home
-    bool spindle_ready = true;    ///< the spindle turns as it was told, or stands
+    bool spindle_ready = true;    ///< the spindle turns as it was told, or stands; the input of M66 has answered
+    std::int32_t input = 0;       ///< that answer: 0, 1, or -1 after its time
     std::uint32_t inputs = 0;     ///< those that are active, InputBits
     bool touched = false;         ///< the probe has changed as watch_probe() said, at touched_at
     PerAxis<Position> touched_at{};
@@ -41,6 +42,8 @@ public:
     /// Spindle, coolant, outputs: at once, or when the segments that were submitted before are executed, as the event's
     /// kind says. What it does not have it ignores.
     virtual void obey(const ProgramEvent& event) noexcept = 0;
+    /// Whether it reads that input of M66 P; then obey() begins to wait for it.
+    [[nodiscard]] virtual bool has_input(std::int32_t /*number*/) const noexcept { return false; }
     /// From now on the next contact, or the loss of it, is to be noted with its place.
     virtual void watch_probe(bool away) noexcept = 0;
     /// Begins homing; read() says how it goes. @param axes  bits of the axes

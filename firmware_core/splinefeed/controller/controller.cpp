@@ -76,6 +76,7 @@ void Controller::act(RealtimeByte byte) noexcept {
     case RealtimeKind::stop: begin_ending(Ending::stop); break;
     case RealtimeKind::door: open_door(); break;
     case RealtimeKind::jog_cancel: cancel_jog(); break;
+    case RealtimeKind::single_block: switch_single_block(); break;
     case RealtimeKind::spindle_stop:
         if (held_ && stands()) {
             spindle_.toggle_spindle();
@@ -128,6 +129,7 @@ void Controller::resume() noexcept {
         return;
     }
     tool_ = refuses_ = false;
+    steps_ = !held_ && waits_for_step();
     if (held_) {
         held_ = false;
         spindle_.restore();
@@ -156,7 +158,9 @@ void Controller::open_door() noexcept {
 // A line that waits will be executed.
 ControllerState Controller::state() const noexcept {
     const ControllerState now = activity();
-    return now == ControllerState::idle && lines_.lines() > 0 ? ControllerState::run : now;
+    return now != ControllerState::idle || lines_.lines() == 0 ? now
+           : waits_for_step()                                  ? ControllerState::hold
+                                                               : ControllerState::run;
 }
 
 ControllerState Controller::activity() const noexcept {

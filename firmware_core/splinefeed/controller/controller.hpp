@@ -70,7 +70,7 @@ private:
     friend struct DollarCommands;
 
     /// What is done for a line that was taken.
-    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, probe, home };
+    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, input, probe, home };
     /// Why the motion comes to its end.
     enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
 
@@ -94,6 +94,8 @@ private:
     void refuse_block(const BlockStatus& status) noexcept;
     void accept() noexcept;
     [[nodiscard]] bool answers_nobody() noexcept;
+    [[nodiscard]] bool waits_for_step() const noexcept;
+    void switch_single_block() noexcept;
     void forget_lines() noexcept {
         lines_.clear();
         refused_lines_ = of_another_ = 0;
@@ -107,6 +109,7 @@ private:
     [[nodiscard]] bool carry_out() noexcept;
     void carry_out(const ProgramEvent& event) noexcept;
     void end_task() noexcept;
+    void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;
     [[nodiscard]] bool finish_home() noexcept;
@@ -154,6 +157,8 @@ private:
     bool check_ = false;
     bool sleep_ = false;
     bool tool_ = false;
+    bool single_ = false; // block by block:
+    bool steps_ = false;  // the next one may begin
     bool jogging_ = false;
     bool touched_ = false; // the probe's move ends
     bool rests_ = false;   // the line's next item needs the machine at rest

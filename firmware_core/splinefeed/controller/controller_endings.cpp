@@ -136,7 +136,7 @@ void Controller::end_reset() noexcept {
     alarm_ = Alarm::none;
     overrides_ = {};
     line_number_ = 0;
-    check_ = sleep_ = tool_ = door_ = closes_ = false;
+    check_ = sleep_ = tool_ = door_ = closes_ = single_ = steps_ = false;
     status_.refresh();
     greet();
 }

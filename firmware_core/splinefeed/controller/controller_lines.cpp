@@ -243,6 +243,22 @@ void Controller::execute_block(std::string_view text) noexcept {
     }
 }
 
+// What is not of a program, or will be refused, does not wait.
+bool Controller::waits_for_step() const noexcept {
+    const bool waits = single_ && !steps_ && !check_ && !is_locked() && !door_ && !refuses_ && refused_lines_ == 0;
+    return waits && lines_.lines() > 0 && !lines_.begins("$");
+}
+
+// Lines that wait do not begin because it ends.
+void Controller::switch_single_block() noexcept {
+    if (waits_for_step()) {
+        hold();
+    }
+    single_ = !single_;
+    steps_ = false;
+    say(single_ ? "Single block: '~' executes one" : "Single block is off");
+}
+
 bool Controller::answers_nobody() noexcept {
     const bool nobody = of_another_ > 0;
     of_another_ -= nobody ? 1U : 0U;

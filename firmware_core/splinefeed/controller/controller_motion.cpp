@@ -57,7 +57,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
 // Whether the motion shall not wait for more lines.
 bool Controller::is_late(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
-    if (waits || ending_ != Ending::none || rests_ || motion_->left_travel()) {
+    if (waits || ending_ != Ending::none || rests_ || single_ || motion_->left_travel()) {
         return true;
     }
     if (!motion_->at_rest()) {
@@ -95,9 +95,10 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$"))) {
+    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$")) || waits_for_step()) {
         return false;
     }
+    steps_ = false;
     lines_.take(line_);
     execute_line();
     return true;
@@ -113,9 +114,13 @@ bool Controller::go_on() noexcept {
         }
         break;
     case Task::spindle:
+    case Task::input:
         reading_ = machine_->read();
         if (!reading_.spindle_ready) {
             return false;
+        }
+        if (task_ == Task::input) {
+            take_input();
         }
         break;
     case Task::probe: return finish_probe();
@@ -184,10 +189,15 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         motion_->hold();
         say("Program paused: '~' goes on");
         return;
-    case EventKind::input_wait: // what depends on the answer is the operator's to decide
+    case EventKind::input_wait:
+        if (!event.analog && machine_->has_input(event.number)) {
+            machine_->obey(event);
+            task_ = Task::input;
+            return;
+        }
         held_ = true;
         motion_->hold();
-        say("M66: no input is read here: '~' goes on, a reset ends the program");
+        say("M66: there is no input of this number: '~' goes on, a reset ends the program");
         return;
     case EventKind::tool_change:
         tool_ = true;
@@ -206,6 +216,16 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         machine_->obey(event);
     } else if (event.stops) {
         task_ = Task::spindle;
+    }
+}
+
+// What depends on an input that did not come is the operator's to decide.
+void Controller::take_input() noexcept {
+    motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
+    if (reading_.input < 0) {
+        held_ = true;
+        motion_->hold();
+        say("M66: its input has not come in time: '~' goes on, a reset ends the program");
     }
 }
 

@@ -25,6 +25,7 @@ struct RealtimeTable {
         {0x84, {door}},
         {0x85, {jog_cancel}},
         {0x87, {full_report}},
+        {0x89, {single_block}},
         {0x90, {feed_override, 0}},
         {0x91, {feed_override, 10}},
         {0x92, {feed_override, -10}},

@@ -18,6 +18,7 @@ enum class RealtimeKind : std::uint8_t {
     stop, ///< as reset, without a new greeting
     door,
     jog_cancel,
+    single_block,     ///< switches it
     feed_override,    ///< `value`: steps in per cent; 0: back to 100
     rapids_override,  ///< `value`: per cent
     spindle_override, ///< as feed_override
