@@ -7,8 +7,14 @@
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
+#include <deque>
 #include <fmt/format.h>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 
