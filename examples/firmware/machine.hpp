@@ -30,6 +30,9 @@ inline constexpr splinefeed::MachineSettings machine = [] {
     return settings;
 }();
 
+/// What the controller keeps to: from where the machine is switched on [mm].
+inline constexpr int travel_mm[axes][2] = {{0, 300}, {0, 200}, {-80, 0}};
+
 // At compile time: the chip does no arithmetic in double.
 inline constexpr auto limits = splinefeed::MotionLimits<Real>::make(machine);
 static_assert(limits.has_value(), "MotionLimits::make says which number is out of range");

@@ -21,8 +21,9 @@ using splinefeed::PerAxis;
 /// A feed segment, in the form of the interrupt.
 struct MotionPart {
     splinefeed::TickPart ticks;
-    PerAxis<std::int32_t> end{}; ///< position at its end [counts]
-    bool rest = false;           ///< the machine stands at its end
+    PerAxis<std::int32_t> end{};   ///< position at its end [counts]
+    bool rest = false;             ///< the machine stands at its end
+    std::uint16_t feed_mm_min = 0; ///< for those who ask; the generator does not need it
 };
 
 struct Inputs {
@@ -30,7 +31,13 @@ struct Inputs {
     bool limit = false;
 };
 
-enum class Stop : std::uint8_t { none, estop, limit };
+enum class Stop : std::uint8_t {
+    none,
+    estop,
+    limit,
+    halted, ///< as was asked: along the path
+    cut     ///< likewise: at once
+};
 
 /// How much motion has to lie ahead, in parts of equal duration.
 struct Lookahead {
@@ -66,10 +73,9 @@ public:
     void tick(const Inputs& inputs, Write&& write) noexcept {
         ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
         if (inputs.estop) {
-            end_with(Stop::estop);
-            shaper_.clear();
-            out_.step = 0;
+            cut(Stop::estop);
         }
+        obey();
         write(out_);
         count_steps();
         watch_limit(inputs.limit);
@@ -87,6 +93,18 @@ public:
             rests_pushed_.store(rests_pushed_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
         }
         ring_.push(part);
+    }
+
+    /// Asks for Stop::halted or Stop::cut: the motion ends, and what is in the ring is not travelled.
+    void order(Stop stop) noexcept { order_.store(stop, std::memory_order_relaxed); }
+    /// Whether nothing moves, nor will.
+    [[nodiscard]] bool stands() const noexcept {
+        return order_.load(std::memory_order_relaxed) == Stop::none && level() == 0 && !active();
+    }
+    /// Along the path, at the rate that time has.
+    [[nodiscard]] std::uint32_t feed_mm_min() const noexcept {
+        return active() ? feed_.load(std::memory_order_relaxed) * (rate_seen_.load(std::memory_order_relaxed) >> 8) >> 8
+                        : 0;
     }
 
     /// Whether steps are made, or still will be: false at standstill, also where the ring ran out.
@@ -164,13 +182,34 @@ private:
         }
         on_limit_ = pressed;
         if (pressed && moving_ && leaving_ == 0) {
-            stopping_ = true;
+            stopping_ = Stop::limit;
         }
         leaving_ -= leaving_ > 0 && out_.step != 0 ? 1U : 0U;
     }
+    /// No pulse begins any more.
+    void cut(Stop reason) noexcept {
+        end_with(reason);
+        shaper_.clear();
+        out_.step = 0;
+    }
+    /// What was asked for.
+    void obey() noexcept {
+        const Stop order = order_.load(std::memory_order_relaxed);
+        if (order == Stop::none) {
+            return;
+        }
+        order_.store(Stop::none, std::memory_order_relaxed);
+        if (order == Stop::cut) {
+            cut(Stop::cut);
+        } else if (!moving_) {
+            end_with(Stop::halted);
+        } else if (stopping_ == Stop::none) {
+            stopping_ = Stop::halted;
+        }
+    }
     void end_with(Stop reason) noexcept {
         leaving_ = lookahead_.leaving_steps;
-        stopping_ = false;
+        stopping_ = Stop::none;
         moving_ = false;
         stop_.store(reason, std::memory_order_relaxed);
     }
@@ -189,15 +228,16 @@ private:
             rate_ = 0; // from where the ring ran out as slowly as it ended; from standstill begin_part() sets it
             phase_ = full_rate;
         }
-        if (stopping_) {
+        if (stopping_ != Stop::none) {
             if (rate_ <= lookahead_.slew) {
-                end_with(Stop::limit);
+                end_with(stopping_);
                 return {};
             }
             rate_ -= lookahead_.slew;
         } else {
             rate_ = rate_ + lookahead_.slew < target_ ? rate_ + lookahead_.slew : target_;
         }
+        rate_seen_.store(rate_, std::memory_order_relaxed);
         phase_ += rate_;
         if (phase_ < full_rate) {
             return {};
@@ -212,6 +252,9 @@ private:
         }
         in_part_ = !ring_.empty();
         if (!in_part_) {
+            if (stopping_ != Stop::none) {
+                end_with(stopping_);
+            }
             moving_ = false;
             if (rest_) {
                 return dda_.finish(end_); // the step of a crossing in the last half tick
@@ -222,10 +265,11 @@ private:
         const Part& part = ring_.front();
         const splinefeed::StepBits steps = dda_.begin(part.ticks);
         target_ = rest_ahead() ? full_rate : rate_at(ring_.size());
-        if (rest_ && !stopping_) {
+        if (rest_ && stopping_ == Stop::none) {
             rate_ = target_; // at standstill time may jump
         }
         rest_ = part.rest;
+        feed_.store(part.feed_mm_min, std::memory_order_relaxed);
         end_ = part.end;
         ring_.drop();
         return steps;
@@ -238,6 +282,9 @@ private:
     std::atomic<std::uint32_t> ticks_{0};
     std::atomic<std::uint32_t> underruns_{0};
     std::atomic<Stop> stop_{Stop::none};
+    std::atomic<Stop> order_{Stop::none};
+    std::atomic<std::uint32_t> feed_{0};
+    std::atomic<std::uint32_t> rate_seen_{0};
     std::atomic<bool> active_{false};
 
     // The interrupt's own, but for restart().
@@ -253,8 +300,8 @@ private:
     std::uint32_t leaving_ = 0; // steps that are left to leave the switch on which the motion began
     bool moving_ = false;
     bool in_part_ = false;
-    bool rest_ = true; // the last part that was begun ends at standstill
-    bool stopping_ = false;
+    bool rest_ = true;           // the last part that was begun ends at standstill
+    Stop stopping_ = Stop::none; // why the rate falls to 0
     bool on_limit_ = false;
 };
 

@@ -16,7 +16,8 @@ as_host 3 '^hash of [a-z_]+ +0x' "$output" blended_path
 costs "$output"
 stack_of '' "$output"
 figure state "$(number_said '^state ([0-9]+) bytes' "$output")"
-bound=$(find "$build"/tests/arm/CMakeFiles/{blended_path,pipeline_platform}.dir -name '*.ci' \
+core=$build/tests/arm/CMakeFiles/splinefeed_core_quintic.dir/__/__/firmware_core/splinefeed
+bound=$(find "$core"/{s1_blended_path,s1_curve} "$build"/tests/arm/CMakeFiles/{blended_path,pipeline_platform}.dir -name '*.ci' \
     -exec awk -v scalar=Fixed -v jerk=none -f tests/arm/stack.awk {} +)
 echo "$bound"
 bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")

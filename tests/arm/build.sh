@@ -12,18 +12,27 @@ board_of() {
     esac
 }
 
+# expressions FILE: its lines as one regular expression
+expressions() {
+    grep -v '^#' "$1" | paste -sd '|'
+}
+
 # build_images CPU BUILD_DIRECTORY
 build_images() {
-    local without=
+    local without='' quintic_without=''
     # One of the three, whose floating point unit makes it the quickest to compile for, builds all of the core.
-    if [[ $1 != cortex-m4f && ${SPLINEFEED_LONG:-0} != 1 ]]; then
-        without=$(grep -v '^#' tests/arm/unused_sources.txt | paste -sd '|')
+    if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then
+        without=$(expressions tests/arm/unused_sources.txt)
+        if [[ $1 != cortex-m4f ]]; then quintic_without=$(expressions tests/arm/unused_quintic_sources.txt); fi
+        # No firmware of it is operated by senders.
+        if [[ $1 == cortex-m0 ]]; then quintic_without+='|/controller/|/s[2-5]_'; fi
     fi
     # One at a time: what keeps time is another run of ctest.
     mkdir -p "$2"
     {
         flock 9
-        cmake --preset arm -B "$2" -DSPLINEFEED_CPU="$1" -DSPLINEFEED_CORE_WITHOUT="$without"
+        cmake --preset arm -B "$2" -DSPLINEFEED_CPU="$1" -DSPLINEFEED_CORE_WITHOUT="$without" \
+            -DSPLINEFEED_QUINTIC_WITHOUT="$quintic_without"
         cmake --build "$2"
     } 9>"$2/lock"
 }

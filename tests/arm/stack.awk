@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v jerk=1
-# [-v root=FUNCTION] -f stack.awk FILE.ci... jerk is 1 where it is limited, none where nothing is planned. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
+# [-v root=FUNCTION] [-v operated=1] -f stack.awk FILE.ci... jerk is 1 where it is limited, none where nothing is planned; operated: by
+# senders. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
     # libgcc, measured in its disassembly (the largest, Cortex-M0) and rounded up; each with all that it calls.
@@ -28,6 +29,13 @@ BEGIN {
     planner = "^_ZNK?10splinefeed" (jerk ? "11JerkPlanner" in_float : "19AccelerationPlanner" of) "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
+    # The controller calls the motion, the machine, and the functions of its commands; the list of settings those of its rows. The path
+    # within a tolerance is guarded. Nobody evaluates expressions, and there is no table of tools.
+    if (operated) {
+        curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
+        split("Controller|DollarCommands|SpindleOrders;ScalarMotion" of "|14StepperMachine|DollarCommands;SettingList;SettingTable.*_FUN;" \
+              "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$", may_call, ";")
+    }
 }
 
 function quoted(line, key) {
@@ -47,12 +55,25 @@ function quoted(line, key) {
     from = quoted($0, "sourcename")
     to = quoted($0, "targetname")
     if (to == "__indirect_call" && from ~ /ArcLength|CheckedSource/) { to = curve }
-    if (to == "__indirect_call" && from ~ /make|Sampler|SegmentStream|Trajectory/) {
+    if (to == "__indirect_call" && (pair = pair_of(from))) {
+        any_of[from] = may_call[pair + 1]
+        next
+    }
+    if (to == "__indirect_call" && from ~ /make|Sampler|SegmentStream|Trajectory|ScalarMotion/) {
         asks[from] = asks[from] method_at(place_of($0)) " "
     } else if (!((from, to) in known)) {
         known[from, to] = 1
         calls[from] = calls[from] to "\n"
     }
+}
+
+# Which pair of may_call a function belongs to; 0: to none.
+function pair_of(from, i) {
+    if (from ~ "ScalarMotion" of) { return 0 }
+    for (i = 1; i in may_call; i += 2) {
+        if (from ~ may_call[i]) { return i }
+    }
+    return 0
 }
 
 function place_of(line) {
@@ -113,8 +134,20 @@ function depth(name, targets, count, i, d, deepest) {
 
 END {
     if (failed) { exit 1 }
+    for (from in any_of) {
+        found = 0
+        for (name in frame) {
+            if (name != from && name ~ any_of[from] && !(name ~ /DollarCommands/ && from !~ /execute_line/)) {
+                calls[from] = calls[from] name "\n"
+                found = 1
+            }
+        }
+        if (!found && any_of[from] != "^$") { fail("nothing is known that " from " could call") }
+    }
     for (from in asks) {
-        if (from ~ /make/) {
+        if (from ~ /ScalarMotion/) {
+            link(from, planner "|" plan "|" sampler)
+        } else if (from ~ /make/) {
             link(from, planner)
         } else if (from ~ /SegmentStream/) {
             link(from, sampler)

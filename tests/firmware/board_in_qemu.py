@@ -99,8 +99,8 @@ class Board:
         with open(log_path, "w", encoding="ascii"):
             pass  # QEMU listens before the plugin opens it
         with open(contacts_path, "wb+") as file:
-            file.truncate(20)
-            self.contacts = mmap.mmap(file.fileno(), 20)
+            file.truncate(28)
+            self.contacts = mmap.mmap(file.fileno(), 28)
         self.halts = False
         for pin in self.kind.contacts:
             self.press(pin, False)
@@ -154,6 +154,21 @@ class Board:
         self.go_on()
         struct.pack_into("=I", self.contacts, 16, self.log_lines + changes)
         self.halts = True
+
+    def tick(self):
+        """How many times the firmware has read its inputs."""
+        return struct.unpack_from("=I", self.contacts, 24)[0]
+
+    def run_ticks(self, count, take):
+        """Lets it run for so many ticks of the machine, and halts it: until the next send() nothing happens there. `take` receives what it
+        says meanwhile: QEMU waits, and answers no command, while some 200 bytes are not received."""
+        self.go_on()
+        self.halts = True
+        struct.pack_into("=I", self.contacts, 20, self.tick() + count)
+        while struct.unpack_from("=I", self.contacts, 20)[0] != 0:
+            take(0.001)
+        while take(0.0) or not self.halted():
+            pass
 
     def halted(self):
         return not self.ask_monitor("query-status")["running"]

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What the reference firmware costs on an emulated board, in instructions and bytes: cost_run.py IMAGE BOARD [PROGRAM]"""
+"""What the reference firmware costs on an emulated board, in instructions and bytes: cost_run.py IMAGE BOARD [PROGRAM]
+
+PROGRAM: waypoints, or for an image that senders operate G-code. As it stands here: examples/path61.csv, and operated_run.PROGRAM."""
+import pathlib
 import re
 import select
 import subprocess
@@ -8,23 +11,46 @@ import sys
 import tempfile
 
 from board_in_qemu import Board, BoardFailed, built_plugin, plugins_refused
+from operated_board import BoardSender
+from operated_run import PROGRAM
 from planned import waypoints
 
 # The interrupt is the first one.
-FUNCTIONS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}
+OF_WAYPOINTS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}
+OPERATED = {"tick": "firmware::on_tick()", "round": "splinefeed::Controller::next("}
 
 
 def ranges(image):
-    """{name: BEGIN:END} of the functions, from the image's symbols."""
-    found = {}
-    for line in subprocess.run(["arm-none-eabi-nm", "-SC", image], check=True, capture_output=True, text=True).stdout.splitlines():
+    """{name: BEGIN:END} of the functions, from the image's symbols: those of the controller, or of the motion of waypoints."""
+    names = subprocess.run(["arm-none-eabi-nm", "-SC", image], check=True, capture_output=True, text=True).stdout
+    functions, found = OPERATED if OPERATED["round"] in names else OF_WAYPOINTS, {}
+    for line in names.splitlines():
         address, size, _, name = line.split(" ", 3) if line.count(" ") >= 3 else ("", "", "", "")
-        for key, wanted in FUNCTIONS.items():
+        for key, wanted in functions.items():
             if address and re.search(re.escape(wanted).replace(r"<\.\*>", "<.*>"), name):
                 found[key] = f"{int(address, 16):x}:{int(address, 16) + int(size, 16):x}"
-    if found.keys() != FUNCTIONS.keys():
-        raise BoardFailed(f"the image has {sorted(found)}, not {sorted(FUNCTIONS)}")
-    return {key: found[key] for key in FUNCTIONS}
+    if found.keys() != functions.keys():
+        raise BoardFailed(f"the image has {sorted(found)}, not {sorted(functions)}")
+    return {key: found[key] for key in functions}
+
+
+def of_waypoints(board, rows):
+    board.wait_for(r"\[boot ")
+    board.command("at " + rows[0])
+    board.flood(rows + ["end"], obey_xoff=False)  # the host's pace changes nothing
+    finish(board)
+    board.send("memory\n")
+    print(board.wait_for(r"\[stack ")[0])
+
+
+def operated(board, lines):
+    """All lines fit into the board's buffer. Questions as in finish()."""
+    sender = BoardSender(board)
+    sender.line()
+    sender.line()
+    sender.send("".join(f"{line}\n" for line in lines).encode())
+    while not sender.report().startswith("<Idle|"):
+        board.uart.send(b"?" * 8)  # it never halts: an interrupt would be late by that
 
 
 def finish(board):
@@ -42,21 +68,20 @@ def finish(board):
 
 def main():
     image, machine = sys.argv[1:3]
-    rows = waypoints(sys.argv[3] if len(sys.argv) > 3 else "examples/path61.csv")
+    program = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
     if refused := plugins_refused():
         print(f"SKIPPED: {refused}")
         return 77
     with tempfile.TemporaryDirectory() as folder:
         log = f"{folder}/cost.txt"
-        options = ",".join([built_plugin("cost", folder), f"log={log}"] + [f"{name}={place}" for name, place in ranges(image).items()])
+        places = ranges(image)
+        options = ",".join([built_plugin("cost", folder), f"log={log}"] + [f"{name}={place}" for name, place in places.items()])
         board = Board(image, folder, machine, ["-plugin", options])
         try:
-            board.wait_for(r"\[boot ")
-            board.command("at " + rows[0])
-            board.flood(rows + ["end"], obey_xoff=False)  # the host's pace changes nothing
-            finish(board)
-            board.send("memory\n")
-            print(board.wait_for(r"\[stack ")[0])
+            if "round" in places:
+                operated(board, program.read_text().splitlines() if program else PROGRAM)
+            else:
+                of_waypoints(board, waypoints(program or "examples/path61.csv"))
             board.ask_monitor("quit")
             board.qemu.wait()
             with open(log, encoding="ascii") as costs:

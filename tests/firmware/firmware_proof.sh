@@ -7,14 +7,23 @@ need python3
 proof=${5:-firmware}
 source tests/arm/proof.sh "$@"
 
+# What is operated by senders has the core of degree 5; the nRF51 takes waypoints.
 name=${proof}_$3
-interrupt=main
-run=firmware_run
+core=$build/firmware_core/CMakeFiles/splinefeed_core.dir
 jerk=0
+operated=0
 if [[ $proof == drive ]]; then
     interrupt=drive/drive_main
     run=drive_run
     jerk=none
+elif [[ $cpu == cortex-m0 ]]; then
+    interrupt=waypoints/waypoint_main
+    run=firmware_run
+else
+    interrupt=controller/controller_main
+    run=operated_run
+    core=$build/tests/arm/CMakeFiles/splinefeed_core_quintic.dir
+    operated=1
 fi
 image=$build/bin/$name.elf
 forbids_all "$image"
@@ -34,8 +43,8 @@ fi
 if [[ $cpu != cortex-m0 ]]; then
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
-        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v jerk=$jerk -v root=$root -f tests/arm/stack.awk {} +)
+        bound=$(find "$core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
+            -exec awk -v scalar=$scalar -v jerk=$jerk -v operated=$operated -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done

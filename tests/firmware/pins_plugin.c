@@ -6,8 +6,9 @@
 //
 // FAMILY is stm32, nrf51 or pl061. On each pin is a contact to ground; in `contacts` the test has a number of 32 bits
 // for each of four ports, in the host's order of bytes, in which the bits of closed contacts are set. A fifth number
-// says after how many lines of the log the machine halts, as by QEMU's command `stop`; 0: never. A pin that is no
-// output is low where its contact is closed or where it has no pull-up; an output is low until the firmware drives it.
+// says after how many lines of the log the machine halts, as by QEMU's command `stop`; 0: never. A sixth says at which
+// tick, likewise; in the seventh the plugin says which tick it is. A pin that is no output is low where its contact is
+// closed or where it has no pull-up; an output is low until the firmware drives it.
 // `log` gets a line "NS TICK PORT PIN LEVEL" for each change: of an output when it changes, of an input when the
 // firmware first reads the new level. NS is the machine's time; TICK says how many times the inputs of the first port
 // were read, which the firmware does once in each tick; PORT counts from 0. Debian's QEMU exports its own functions;
@@ -61,11 +62,12 @@ struct port {
 };
 static struct port ports[4];
 static int count;
-static const volatile uint32_t* contacts;
+static volatile uint32_t* contacts;
 static uint64_t ticks;
 static FILE* out;
 static uint32_t lines;
-enum { halt_after = 4, paused = 4 }; // the place in contacts; RUN_STATE_PAUSED
+enum { halt_after = 4, halt_at = 5, tick = 6, places = 7 }; // in contacts
+enum { paused = 4 };                                        // RUN_STATE_PAUSED
 
 static void tell(const struct port* p, uint32_t changed, uint32_t levels) {
     for (int pin = 0; pin < 32 && changed >> pin != 0; ++pin) {
@@ -141,7 +143,13 @@ static uint64_t port_read(void* opaque, uint64_t at, unsigned size) {
     if (pins == 0) {
         return p->registers[at / 4];
     }
-    ticks += p == ports;
+    if (p == ports) {
+        contacts[tick] = (uint32_t)++ticks;
+        if (contacts[halt_at] != 0 && contacts[halt_at] <= ticks) {
+            contacts[halt_at] = 0;
+            vm_stop(paused);
+        }
+    }
     const uint32_t levels = p->pull_up & ~contacts[p - ports] & ~p->outputs;
     const uint32_t changed = (levels ^ p->seen) & pins;
     tell(p, changed, levels);
@@ -183,8 +191,8 @@ __attribute__((visibility("default"))) int qemu_plugin_install(uint64_t id, cons
         if (!strncmp(argv[i], "log=", 4)) {
             out = fopen(argv[i] + 4, "w");
         } else if (!strncmp(argv[i], "contacts=", 9)) {
-            const int file = open(argv[i] + 9, O_RDONLY);
-            contacts = mmap(NULL, sizeof(uint32_t) * (halt_after + 1), PROT_READ, MAP_SHARED, file, 0);
+            const int file = open(argv[i] + 9, O_RDWR);
+            contacts = mmap(NULL, sizeof(uint32_t) * places, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
         } else if (count < 4 && sscanf(argv[i], "%7[^=]=%" SCNx64, family, &p->base) == 2) {
             for (size_t k = 0; k < 3; ++k) {
                 p->family = !strcmp(family, families[k].name) ? &families[k] : p->family;

@@ -260,3 +260,86 @@ TEST_CASE("Step generator: a switch that stays pressed stops every motion that d
         bench.steps->forgive();
     }
 }
+
+TEST_CASE("Step generator: told to halt it slows down from the next tick on", "[generator]") {
+    const std::vector<MotionPart> parts = motion(600, true);
+    Bench bench(128);
+    for (int ms = 0; ms < 200; ++ms) {
+        bench.fill(parts, parts.size());
+        bench.run();
+    }
+    bench.steps->order(Stop::halted);
+    CHECK_FALSE(bench.steps->stands());
+    const int first = bench.run();
+    const int second = bench.run();
+    CHECK(second <= first);
+    int ms = 2;
+    for (; bench.steps->stopped() == Stop::none && ms < 1000; ++ms) {
+        bench.fill(parts, parts.size());
+        bench.run();
+    }
+    CHECK(ms >= 128);
+    CHECK(ms <= 133);
+    CHECK(bench.steps->stopped() == Stop::halted);
+    CHECK(bench.steps->count(0) == bench.pulses);
+    bench.run();
+    CHECK_FALSE(bench.steps->stands()); // what is in the ring is still there
+    bench.steps->restart();
+    bench.steps->forgive();
+    CHECK(bench.steps->stands());
+}
+
+TEST_CASE("Step generator: told to halt before a motion begins, or just before it ends, it is halted", "[generator]") {
+    const std::vector<MotionPart> parts = motion(60, true);
+    for (const int before_ms : {0, 55, 59}) {
+        INFO(before_ms << " ms");
+        Bench bench(128);
+        bench.fill(parts, before_ms == 0 ? 10 : parts.size());
+        for (int ms = 0; ms < before_ms; ++ms) {
+            bench.run();
+        }
+        bench.steps->order(Stop::halted);
+        for (int ms = 0; ms < 200; ++ms) {
+            bench.run();
+        }
+        CHECK(bench.steps->stopped() == Stop::halted);
+        CHECK((before_ms != 0 || bench.pulses == 0));
+        CHECK_FALSE(bench.steps->active());
+    }
+}
+
+TEST_CASE("Step generator: cut off, no pulse begins any more, and it counts those that were made", "[generator]") {
+    const std::vector<MotionPart> parts = motion(600, true);
+    Bench bench(128);
+    for (int ms = 0; ms < 100; ++ms) {
+        bench.fill(parts, parts.size());
+        bench.run();
+    }
+    bench.steps->order(Stop::cut);
+    CHECK(bench.run() == 0);
+    CHECK(bench.steps->stopped() == Stop::cut);
+    CHECK(bench.steps->count(0) == bench.pulses);
+}
+
+TEST_CASE("Step generator: it tells the feed of the part that it makes, slower where it is late", "[generator]") {
+    std::vector<MotionPart> parts = motion(200, false);
+    for (MotionPart& part : parts) {
+        part.feed_mm_min = 6000;
+    }
+    Bench bench(128);
+    CHECK(bench.steps->feed_mm_min() == 0);
+    bench.fill(parts, 100);
+    for (int ms = 0; ms < 10; ++ms) {
+        bench.run();
+    }
+    CHECK(bench.steps->feed_mm_min() == 6000);
+    for (int ms = 0; ms < 70; ++ms) {
+        bench.run();
+    }
+    CHECK(bench.steps->feed_mm_min() > 1000);
+    CHECK(bench.steps->feed_mm_min() < 5000);
+    for (int ms = 0; ms < 400; ++ms) {
+        bench.run();
+    }
+    CHECK(bench.steps->feed_mm_min() == 0);
+}

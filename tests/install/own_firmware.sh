@@ -15,11 +15,11 @@ cat >"$scratch/CMakeLists.txt" <<'PROJECT'
 cmake_minimum_required(VERSION 3.22)
 project(my_machine LANGUAGES CXX)
 set(SPLINEFEED_MAX_AXES 3)
-set(SPLINEFEED_MAX_DEGREE 3)
+set(SPLINEFEED_MAX_DEGREE 5)
 add_subdirectory(splinefeed)
 add_subdirectory(firmware)
 PROJECT
-without=$(grep -v '^#' tests/arm/unused_sources.txt | paste -sd '|')
+without=$(grep -v '^#' tests/arm/unused_quintic_sources.txt | paste -sd '|')
 cd "$scratch" || exit
 cmake -G Ninja -B build -DCMAKE_TOOLCHAIN_FILE=splinefeed/cmake/arm-none-eabi.cmake -DCMAKE_BUILD_TYPE=Release \
     -DSPLINEFEED_CPU=cortex-m3 -DSPLINEFEED_CORE_WITHOUT="$without"

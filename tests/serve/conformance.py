@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The cases of tests/controller/conformance.txt, by TCP and by a pseudo terminal: conformance.py TOOL [--modbus].
 
---modbus: by TCP, on three simulated Modbus drives, without the cases of NOT_ON_DRIVES.
+--modbus: by TCP, on three simulated Modbus drives, without the cases that need a probe.
 
 Each case begins with a reset machine: a new server for each would take longer. What only a machine in virtual time can do is left out, with the
 cases that need it; a wait that is too long on a busy host changes no answer of the others.
@@ -20,26 +20,27 @@ from sender import Failed, Sender, ServedDrives, Server
 
 HERE = pathlib.Path(__file__).resolve().parent
 VIRTUAL = {"machine", "told", "way", "connect", "disconnect", "times"}
-# They count on the time of the host to some milliseconds.
-TIMED = {"a dwell is answered when it is over", "a second reset stops off the path", "a feed override", "an override of rapids acts on rapids alone",
-         "a feed override does not act on jogs", "hold and resume", "no jog while a program runs"}
-# Drives have no probe.
-NOT_ON_DRIVES = {"a probe that finds nothing"}
+def cases(without):
+    """(name, lines) of the cases that need neither a machine in virtual time nor anything of `without`."""
+    name, needs, lines = None, set(), []
 
+    def runs():
+        return name and not needs & without and not any(command in VIRTUAL for _, command, _ in lines)
 
-def cases():
-    name, lines = None, []
     for number, line in enumerate((HERE.parent / "controller/conformance.txt").read_text().splitlines(), 1):
         if not line or line.startswith("#"):
             continue
         command, _, rest = line.partition(" ")
         if command == "case":
-            if name:
+            if runs():
                 yield name, lines
-            name, lines = rest, []
+            name, needs, lines = rest, set(), []
+        elif command == "needs":
+            needs = set(rest.split())
         else:
             lines.append((number, command, rest))
-    yield name, lines
+    if runs():
+        yield name, lines
 
 
 def take(sender, command, rest):
@@ -96,14 +97,12 @@ def served(tool, folder, kind):
 
 def main():
     tool, modbus = sys.argv[1], "--modbus" in sys.argv[2:]
-    left_out = TIMED | (NOT_ON_DRIVES if modbus else set())
+    without = {"clock", "probe"} if modbus else {"clock"}
     run, failed = 0, 0
     for kind in ("modbus",) if modbus else ("tcp", "pty"):
         with tempfile.TemporaryDirectory() as folder, served(tool, folder, kind) as server:
             sender = CaseSender(server, "pty" if kind == "pty" else "tcp")
-            for name, lines in cases():
-                if name in left_out or any(command in VIRTUAL for _, command, _ in lines):
-                    continue
+            for name, lines in cases(without):
                 run += 1
                 at = 0
                 try:

@@ -202,8 +202,12 @@ public:
     /// A millisecond.
     void tick() {
         FeedSegment segment;
-        while (machine.has_room() && controller->next(segment, machine.is_dry(), now_) == Pull::item) {
-            machine.submit(segment);
+        Pull pull = Pull::busy;
+        while (machine.has_room() && (pull == Pull::item || pull == Pull::busy)) {
+            pull = controller->next(segment, machine.is_dry(), now_);
+            if (pull == Pull::item) {
+                machine.submit(segment);
+            }
         }
         machine.tick();
         ++now_;

@@ -18,6 +18,11 @@ public:
 
     AnswerText& put(char c) noexcept;
     AnswerText& put(std::string_view text) noexcept;
+    /// A literal, whose length is known: a firmware has no strlen.
+    template <std::size_t size>
+    AnswerText& put(const char (&text)[size]) noexcept {
+        return put(std::string_view(text, size - 1));
+    }
     AnswerText& integer(std::int64_t value) noexcept;
     /// Rounded to `decimals`, 0 to 9, ties away from zero.
     AnswerText& decimal(Decimal value, int decimals) noexcept;

@@ -5,7 +5,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr std::size_t report_room = 256; // reports are left out before answers are
 constexpr int most_free_moves = 100;
 
 } // namespace
@@ -69,7 +68,11 @@ void Controller::act(RealtimeByte byte) noexcept {
     switch (byte.kind) {
     case RealtimeKind::report: write_status(false); break;
     case RealtimeKind::full_report: write_status(true); break;
-    case RealtimeKind::parser_report: write_modes(motion_->interpreter(), spindle_, answers_); break;
+    case RealtimeKind::parser_report:
+        if (may_report()) {
+            write_modes(motion_->interpreter(), spindle_, answers_);
+        }
+        break;
     case RealtimeKind::hold: hold(); break;
     case RealtimeKind::resume: resume(); break;
     case RealtimeKind::reset: begin_ending(Ending::reset); break;
@@ -197,7 +200,7 @@ int Controller::part_of_state() const noexcept {
 }
 
 void Controller::write_status(bool all) noexcept {
-    if (answers_.room() < report_room) {
+    if (!may_report()) {
         return;
     }
     reading_ = machine_->read();

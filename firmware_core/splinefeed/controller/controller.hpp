@@ -59,7 +59,7 @@ public:
 
     /// Executes lines as far as that is possible without a segment: for a machine that has no room for one.
     void execute(std::uint32_t now_ms) noexcept;
-    /// The same, and writes the next segment. `starved`: there is none now.
+    /// The same, and writes the next segment. `starved`: there is none now; `busy`: the work of this call is spent.
     /// @param dry  the machine moves and has hardly any segment left
     Pull next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept;
 
@@ -68,6 +68,9 @@ public:
 
 private:
     friend struct DollarCommands;
+
+    static constexpr std::size_t answer_room = 2048; // of the longest answer
+    static constexpr std::size_t report_room = 256;
 
     /// What is done for a line that was taken.
     enum class Task : std::uint8_t { none, line, jog, dwell, spindle, input, probe, home };
@@ -85,7 +88,13 @@ private:
     [[nodiscard]] int part_of_state() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
     [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_ || sleep_; }
+    // However many are asked for, reports leave room for answers: without it no line is executed.
+    [[nodiscard]] bool may_report() const noexcept { return answers_.room() >= answer_room + report_room; }
     void say(std::string_view text) noexcept { answers_.put("[MSG:").put(text).put(']').end_line(); }
+    template <std::size_t size>
+    void say(const char (&literal)[size]) noexcept {
+        say(std::string_view(literal, size - 1));
+    }
 
     // controller_lines.cpp
     void execute_line() noexcept;
@@ -144,6 +153,7 @@ private:
     std::uint32_t line_number_ = 0;
     std::size_t refused_lines_ = 0; // that had come when one was refused
     std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
+    unsigned lines_left_ = 0;       // that this call may begin
     LineError refusal_ = LineError::none;
     Task task_ = Task::none;
     Ending ending_ = Ending::none;

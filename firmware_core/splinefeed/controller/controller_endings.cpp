@@ -4,6 +4,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 namespace {
 
 bool stops_itself(Alarm alarm) noexcept {
@@ -19,7 +21,7 @@ void Controller::cancel_jog() noexcept {
     if (task_ == Task::jog) {
         end_task();
     }
-    while (lines_.lines() > 0 && lines_.begins("$J=")) {
+    while (lines_.lines() > 0 && lines_.begins("$J="sv)) {
         lines_.take(line_);
         accept();
     }

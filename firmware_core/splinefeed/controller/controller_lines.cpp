@@ -7,6 +7,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 /// The `$` commands, by their words.
 struct DollarCommands {
     struct Row {
@@ -183,7 +185,9 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     } else if (apart > shown || apart < -shown) {
         c.answers_.put("[MSG:$").integer(n);
         const std::string_view key = SettingList::key_of(n);
-        c.answers_.put(key.empty() ? " is fixed" : " is ").put(key).put(key.empty() ? "" : " in the machine file");
+        c.answers_.put(key.empty() ? " is fixed"sv : " is "sv)
+            .put(key)
+            .put(key.empty() ? ""sv : " in the machine file"sv);
         c.answers_.put(']').end_line();
         c.refuse(LineError::setting_disabled);
         return;
@@ -246,7 +250,7 @@ void Controller::execute_block(std::string_view text) noexcept {
 // What is not of a program, or will be refused, does not wait.
 bool Controller::waits_for_step() const noexcept {
     const bool waits = single_ && !steps_ && !check_ && !is_locked() && !door_ && !refuses_ && refused_lines_ == 0;
-    return waits && lines_.lines() > 0 && !lines_.begins("$");
+    return waits && lines_.lines() > 0 && !lines_.begins("$"sv);
 }
 
 // Lines that wait do not begin because it ends.
@@ -284,7 +288,11 @@ void Controller::refuse_block(const BlockStatus& status) noexcept {
     if (status.column > 0) {
         answers_.put(':').integer(status.column);
     }
-    answers_.put(' ').put(describe(status.error)).put(']').end_line();
+    answers_.put(' ');
+    for (const char* text = describe(status.error); *text != '\0'; ++text) {
+        answers_.put(*text);
+    }
+    answers_.put(']').end_line();
     refusal_ = line_error_of(status.error);
     refuse(refusal_);
     if (!settings_->holds_on_error || check_ || jogging_) {

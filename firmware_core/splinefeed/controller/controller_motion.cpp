@@ -4,21 +4,18 @@
 
 namespace splinefeed {
 
-namespace {
-
-constexpr std::size_t answer_room = 2048; // of the longest answer
-
-} // namespace
+using namespace std::string_view_literals; // a firmware has no strlen
 
 void Controller::execute(std::uint32_t now_ms) noexcept {
     now_ms_ = now_ms;
+    lines_left_ = settings_->lines_a_call;
     reading_ = machine_->read();
     watch();
     settle();
     do {
         while (step()) {
         }
-    } while (motion_->look_ahead());
+    } while (lines_left_ > 0 && motion_->look_ahead());
 }
 
 Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept {
@@ -61,7 +58,7 @@ bool Controller::is_late(bool dry) const noexcept {
         return true;
     }
     if (!motion_->at_rest()) {
-        return dry;
+        return dry && (lines_left_ > 0 || lines_.lines() == 0);
     }
     return lines_.lines() == 0 && now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
 }
@@ -95,9 +92,10 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    if (lines_.lines() == 0 || (tool_ && !lines_.begins("$")) || waits_for_step()) {
+    if (lines_.lines() == 0 || lines_left_ == 0 || (tool_ && !lines_.begins("$"sv)) || waits_for_step()) {
         return false;
     }
+    --lines_left_;
     steps_ = false;
     lines_.take(line_);
     execute_line();

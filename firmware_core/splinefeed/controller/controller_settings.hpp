@@ -2,6 +2,7 @@
 // ControllerSettings: what a controller is told of its machine.
 #pragma once
 
+#include "splinefeed/base/work_budget.hpp"
 #include "splinefeed/s0_program/program_settings.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
 
@@ -48,6 +49,10 @@ struct ControllerSettings {
     Decimal home_seek_mm_min{};
     std::uint32_t jog_timeout_ms = 1000; ///< a jog ends so long after the last byte of its sender; 0: never
     std::int32_t receive_bytes = 1024;   ///< what senders may count on
+    /// Bounds of a call of the controller, for a main loop that has other work: lines that are begun, and steps of
+    /// planning as Trajectory::next() counts them.
+    unsigned lines_a_call = WorkBudget::unlimited;
+    unsigned work_a_call = WorkBudget::unlimited;
 };
 
 } // namespace splinefeed

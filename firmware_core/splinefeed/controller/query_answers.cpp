@@ -5,6 +5,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 namespace {
 
 constexpr std::string_view units_words[] = {" G21", " G20"};
@@ -36,11 +38,11 @@ void write_modes(const BlockInterpreter& interpreter, const SpindleOrders& spind
     write_system(interpreter.offsets().active, out);
     out.put(plane_words[static_cast<unsigned>(modal.plane)]);
     out.put(units_words[modal.inches ? 1 : 0]);
-    out.put(modal.incremental ? " G91" : " G90");
-    out.put(modal.inverse_time ? " G93" : " G94");
+    out.put(modal.incremental ? " G91"sv : " G90"sv);
+    out.put(modal.inverse_time ? " G93"sv : " G94"sv);
     out.put(spindle_words[static_cast<unsigned>(modal.spindle)]);
-    out.put(spindle.mist() ? " M7" : "").put(spindle.flood() ? " M8" : "");
-    out.put(spindle.mist() || spindle.flood() ? "" : " M9");
+    out.put(spindle.mist() ? " M7"sv : ""sv).put(spindle.flood() ? " M8"sv : ""sv);
+    out.put(spindle.mist() || spindle.flood() ? ""sv : " M9"sv);
     out.put(" T").integer(modal.selected_tool);
     out.put(" F").decimal(modal.inches ? modal.in_units(modal.feed) : modal.feed, modal.inches ? 1 : 0);
     out.put(" S").decimal(modal.speed, 0).put(']').end_line();
@@ -49,7 +51,7 @@ void write_modes(const BlockInterpreter& interpreter, const SpindleOrders& spind
 void write_probe(const ProbeResult& probe, const ProgramSettings& program, bool inches, AnswerText& out) noexcept {
     out.put("[PRB:");
     write_axes(probe.at, program, inches, out);
-    out.put(probe.contact ? ":1]" : ":0]").end_line();
+    out.put(probe.contact ? ":1]"sv : ":0]"sv).end_line();
 }
 
 void write_offsets(const WorkOffsets& offsets, const ProbeResult& probe, const ProgramSettings& program, bool inches,
@@ -85,7 +87,7 @@ void write_build(const ControllerSettings& settings, bool axes, AnswerText& out)
         }
     }
     out.put(']').end_line();
-    out.put("[OPT:V").put(settings.homes ? "Z" : "").put(",100,").integer(settings.receive_bytes);
+    out.put("[OPT:V").put(settings.homes ? "Z"sv : ""sv).put(",100,").integer(settings.receive_bytes);
     if (axes) {
         out.put(',').integer(settings.program.axes).put(",0]").end_line();
         out.put("[AXS:").integer(settings.program.axes).put(':');

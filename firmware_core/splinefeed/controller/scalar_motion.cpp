@@ -279,7 +279,7 @@ bool ScalarMotion<S>::take_event(ProgramEvent& out) noexcept {
 template <Scalar S>
 bool ScalarMotion<S>::look_ahead() noexcept {
     const bool full = !path_->has_room();
-    trajectory_.measure_ahead(WorkBudget::unlimited);
+    trajectory_.measure_ahead(settings_->work_a_call);
     return full && path_->has_room();
 }
 
@@ -288,7 +288,8 @@ Pull ScalarMotion<S>::next(FeedSegment& out, bool late) noexcept {
     if (late) {
         release(true);
     }
-    const Pull pull = trajectory_.next(out, late ? UnderrunPolicy::drain : UnderrunPolicy::wait);
+    const UnderrunPolicy underrun = late ? UnderrunPolicy::drain : UnderrunPolicy::wait;
+    const Pull pull = trajectory_.next(out, underrun, settings_->work_a_call);
     if (pull == Pull::item) {
         moved_ = true;
         at_rest_ = out.ends_at_rest();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/controller/setting_list.hpp"
 
+#include "splinefeed/number/wide.hpp"
 #include "splinefeed/s0_program/axis_letters.hpp"
+
+#include <bit>
 
 namespace splinefeed {
 
@@ -11,10 +14,18 @@ Decimal whole(std::int64_t value) noexcept {
     return {value * Decimal::one};
 }
 
-// A number of the machine; what is shown of it is rounded.
-Decimal of_double(double value) noexcept {
-    constexpr double most = 9e9;
-    return value < most ? Decimal{static_cast<std::int64_t>(value * 1e9)} : Decimal{Decimal::largest_raw};
+// A number of the machine, which is not negative, times `factor`, 100 at most. By integers: a firmware has no
+// arithmetic in double.
+Decimal of_double(double value, std::uint64_t factor = 1) noexcept {
+    constexpr int digits = 52;
+    constexpr std::uint64_t hidden = std::uint64_t{1} << digits;
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const int places = digits + 1023 - static_cast<int>(bits >> digits); // value = significand / 2^places
+    const std::uint64_t significand = (bits & (hidden - 1)) | hidden;
+    constexpr int fewest = 18; // from 2^35 on it is out of range
+    const Wide raw = shift_right(multiply(significand, factor * Decimal::one), places > fewest ? places : fewest);
+    return {raw.high == 0 && raw.low < Decimal::largest_raw ? static_cast<std::int64_t>(raw.low)
+                                                            : Decimal::largest_raw};
 }
 
 template <class Bit>
@@ -144,7 +155,7 @@ struct SettingTable {
          }},
         {110, "max_velocity_mm_s",
          [](const C& c, unsigned k) {
-             return of_double(60.0 * c.machine.axis[k].max_velocity_mm_s);
+             return of_double(c.machine.axis[k].max_velocity_mm_s, 60);
          }},
         {120, "max_acceleration_mm_s2",
          [](const C& c, unsigned k) {

@@ -5,6 +5,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 namespace {
 
 constexpr std::string_view columns = "xyzabc";
@@ -85,7 +87,7 @@ void StatusReport::write(const Content& content, const ControllerSettings& setti
     if (has_part(content.state)) {
         out.put(':').integer(content.part);
     }
-    out.put(of_machine ? "|MPos:" : "|WPos:");
+    out.put(of_machine ? "|MPos:"sv : "|WPos:"sv);
     write_axes(position, settings.program, inches, out);
     if ((mask & 2) != 0) {
         out.put("|Bf:").integer(content.free_moves).put(',').integer(static_cast<std::int64_t>(content.free_bytes));
@@ -116,7 +118,7 @@ void StatusReport::write(const Content& content, const ControllerSettings& setti
             if (turns) {
                 out.put(content.spindle->state() == SpindleState::clockwise ? 'S' : 'C');
             }
-            out.put(content.spindle->flood() ? "F" : "").put(content.spindle->mist() ? "M" : "");
+            out.put(content.spindle->flood() ? "F"sv : ""sv).put(content.spindle->mist() ? "M"sv : ""sv);
         }
     }
     out.put('>').end_line();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "console.hpp"
+#include "waypoints/console.hpp"
 
 #include "startup.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "motion.hpp"
+#include "waypoints/motion.hpp"
 
 namespace firmware {
 

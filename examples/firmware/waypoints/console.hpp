@@ -2,9 +2,9 @@
 // Console: lines from the host to the motion, and what the host is told. docs/reference/firmware_protocol.md
 #pragma once
 
-#include "line_parser.hpp"
-#include "motion.hpp"
 #include "serial.hpp"
+#include "waypoints/line_parser.hpp"
+#include "waypoints/motion.hpp"
 
 namespace firmware {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "line_parser.hpp"
+#include "waypoints/line_parser.hpp"
 
 #include "splinefeed/s0_program/decimal_text.hpp"
 

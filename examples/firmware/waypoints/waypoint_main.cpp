@@ -3,8 +3,8 @@
 //
 //   host ── UART ── Serial ── Console ── Motion ──────── ring of parts ── StepGenerator ── pins
 //                   (tick)    └──────── main loop ────┘                   (tick)
-#include "console.hpp"
 #include "startup.hpp"
+#include "waypoints/console.hpp"
 
 namespace firmware {
 

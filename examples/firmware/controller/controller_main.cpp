@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Reference firmware: a machine that senders operate, by the protocol of grbl. docs/how-to/port_to_a_board.md
+//
+//   sender ── UART ── ByteLine ── Controller, ScalarMotion ── StepperMachine ── ring of parts ── StepGenerator ── pins
+//                     (tick)      └────────────── main loop ─────────────┘                       (tick)
+#include "controller/byte_line.hpp"
+#include "controller/operator_settings.hpp"
+#include "controller/stepper_machine.hpp"
+#include "startup.hpp"
+
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/base/slot.hpp"
+#include "splinefeed/controller/controller.hpp"
+#include "splinefeed/controller/scalar_motion.hpp"
+
+namespace firmware {
+
+namespace {
+
+using splinefeed::Controller;
+using splinefeed::Pull;
+
+// Built in main: their bytes start as zeros, and no constructor runs before main.
+splinefeed::Slot<std::array<MotionPart, board::parts + 1>> parts;
+splinefeed::Slot<Steps> steps;
+splinefeed::Slot<ByteLine> line;
+splinefeed::Slot<StepperMachine> stepper;
+splinefeed::Slot<std::array<splinefeed::PlannedCell<Real>, board::window>> window;
+splinefeed::Slot<splinefeed::AccelerationPlanner<Real>> planner;
+splinefeed::Slot<splinefeed::ScalarMotion<Real>> motion;
+splinefeed::Slot<Controller> controller;
+std::array<char, operator_settings.receive_bytes> lines_memory;
+std::array<char, Controller::least_answers> answers_memory;
+std::atomic<bool> estop; // as the last tick read it
+std::atomic<bool> limit;
+
+/// Milliseconds since the start.
+class Clock {
+public:
+    /// The watchdog is fed as long as the timer runs, and so does the main loop.
+    std::uint32_t look() noexcept {
+        const std::uint32_t ticks = steps->ticks();
+        if (ticks != ticks_) {
+            ticks_ = ticks;
+            board::feed_watchdog();
+        }
+        for (; ticks - counted_ >= ticks_per_ms; counted_ += ticks_per_ms) {
+            ++now_ms_;
+        }
+        return now_ms_;
+    }
+
+private:
+    static constexpr std::uint32_t ticks_per_ms = 1000 / board::tick_us;
+    static_assert(1000 % board::tick_us == 0);
+    std::uint32_t ticks_ = 0;
+    std::uint32_t counted_ = 0;
+    std::uint32_t now_ms_ = 0;
+};
+
+/// Moves bytes between line and controller; returns whether there were some.
+bool exchange(std::uint32_t now_ms) noexcept {
+    std::array<char, 32> bytes{};
+    bool some = false;
+    while (const std::size_t count = line->take(bytes)) {
+        controller->receive({bytes.data(), count}, now_ms);
+        some = true;
+    }
+    const std::size_t room = line->room_to_send();
+    const std::size_t count =
+        controller->take_answers(std::span(bytes).first(room < bytes.size() ? room : bytes.size()));
+    line->send(std::span(bytes).first(count));
+    return some || count > 0;
+}
+
+/// A round of the main loop; returns whether another one has something to do at once.
+bool work(std::uint32_t now_ms) noexcept {
+    const bool talks = exchange(now_ms);
+    stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, line->bytes_lost());
+    if (!stepper->has_room()) {
+        controller->execute(now_ms);
+        return talks;
+    }
+    splinefeed::FeedSegment segment;
+    const Pull pull = controller->next(segment, stepper->is_dry(), now_ms);
+    if (pull == Pull::item) {
+        stepper->submit(segment);
+    }
+    return talks || pull == Pull::item || pull == Pull::busy;
+}
+
+} // namespace
+
+void on_tick() {
+    board::acknowledge_tick();
+    const Inputs inputs = board::read_inputs();
+    if (inputs.estop) {
+        board::enable_drives(false);
+    }
+    estop.store(inputs.estop, std::memory_order_relaxed);
+    limit.store(inputs.limit, std::memory_order_relaxed);
+    // Not the functions themselves: those would be called by their addresses.
+    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); })) {
+        steps->order(Stop::halted); // the controller will ask for the same
+    }
+}
+
+} // namespace firmware
+
+int main() {
+    using namespace firmware;
+    board::start();
+    Steps& generator = steps.build(parts.build(), lookahead);
+    line.build();
+    stepper.build(generator);
+    motion.build(operator_settings, *limits, planner.build(window.build()), path_rules);
+    controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
+    board::start_timer();
+    board::start_watchdog();
+    if (board::watchdog_bit()) {
+        line->send(std::string_view("[MSG:The watchdog has reset the board]\r\n"));
+    }
+    controller->connect();
+    Clock clock;
+    for (;;) {
+        const std::uint32_t now_ms = clock.look();
+        bool idle = !work(now_ms);
+        while (idle) { // until the next millisecond, or the next byte
+            idle = clock.look() == now_ms && !line->has_come();
+        }
+    }
+}
