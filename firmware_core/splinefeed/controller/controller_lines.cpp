@@ -260,7 +260,7 @@ void Controller::switch_single_block() noexcept {
     }
     single_ = !single_;
     steps_ = false;
-    say(single_ ? "Single block: '~' executes one" : "Single block is off");
+    say(single_ ? "Single block: '~' executes one"sv : "Single block is off"sv);
 }
 
 bool Controller::answers_nobody() noexcept {
