@@ -128,7 +128,7 @@ TEST_CASE("a feed that is on and off in turn, from period to period, moves the m
 TEST_CASE("a value is passed on at its pace, and 0 at once", "[linuxcnc]") {
     PacedValue value(1.0);
     const auto passes = [&](double asked) {
-        return value.take(asked, 0.001, 0.0045);
+        return value.take(asked, 0.022, 0.09);
     };
     CHECK_FALSE(passes(1.0));
     CHECK(passes(0.5)); // the first change
@@ -136,16 +136,61 @@ TEST_CASE("a value is passed on at its pace, and 0 at once", "[linuxcnc]") {
     CHECK_FALSE(passes(0.9));
     CHECK(passes(0.0)); // a stop
     CHECK(value.value() == 0.0);
-    for (const double asked : {1.0, 0.0, 1.0, 1.0}) { // shortly behind it: it waits
+    CHECK(passes(1.0));
+    CHECK(value.value() == 1.0);
+    for (const double asked : {0.0, 1.0, 0.0, 0.0}) { // both again, shortly behind them: they wait
         CHECK_FALSE(passes(asked));
     }
-    CHECK(passes(1.0));
-    CHECK(value.value() == Approx(0.8)); // the mean
+    CHECK(passes(0.0));
+    CHECK(value.value() == Approx(0.2)); // the mean
     for (int n = 0; n < 4; ++n) {
-        CHECK_FALSE(passes(1.0));
+        CHECK_FALSE(passes(0.0));
     }
-    CHECK(passes(1.0)); // and then what is asked
-    CHECK(value.value() == 1.0);
+    CHECK(passes(0.0)); // and then what is asked
+    CHECK(value.value() == 0.0);
+}
+
+TEST_CASE("however long a feed is on and off in turn, its mean is followed", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        for (const int on : {1, 5, 12, 40}) { // ms
+            for (const int off : {1, 5, 12, 40}) {
+                Control control(machine_of(3, 0.001, jerk));
+                REQUIRE(control.add(line_to(200.0, 0.0, 50.0)) == 0);
+                for (int n = 0; n < 2000; ++n) {
+                    control.input.ratio = n % (on + off) < on ? 1.0 : 0.0;
+                    control.period();
+                }
+                CAPTURE(jerk, on, off);
+                const double mean_mm = 100.0 * on / (on + off);
+                CHECK(control.out.position[0] == Approx(mean_mm).margin(12.0)); // a start and a stop more
+                CHECK(control.use() <= 1.0001);
+            }
+        }
+    }
+}
+
+TEST_CASE("a pause shortly behind a resume acts as soon as another one", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        for (const int between : {1, 3, 20, 50, 90}) { // ms
+            Control control(machine_of(3, 0.001, jerk));
+            REQUIRE(control.add(line_to(80.0, 0.0, 50.0)) == 0);
+            const auto run = [&](int hold, int periods) {
+                control.input.hold = hold;
+                int moving = 0;
+                for (int n = 0; n < periods; ++n) {
+                    control.period();
+                    moving = control.out.speed > 0.0 ? n : moving;
+                }
+                return moving;
+            };
+            run(0, 300);
+            const int first = run(1, 400);
+            run(0, between);
+            CAPTURE(jerk, between, first);
+            CHECK(run(1, 400) <= first + 40); // with a jerk limit the plan of the resume is ready, 40 segments
+            CHECK(control.use() <= 1.0001);
+        }
+    }
 }
 
 TEST_CASE("of two changes that follow each other the second one comes through in time, too", "[linuxcnc]") {
