@@ -5,9 +5,7 @@
 
 namespace splinefeed::host {
 
-// A program waits for its answer: whoever orders before it comes has given that program up.
 void ProgramOutputs::act(const ProgramAction& action) {
-    end_question();
     if (action.spindle && spindle_ != nullptr) {
         spindle_->order(action.spindle->direction, action.spindle->rpm);
     }
@@ -21,7 +19,9 @@ void ProgramOutputs::act(const ProgramAction& action) {
     }
 }
 
+// What an operator switches meanwhile is no answer: only another question ends one.
 void ProgramOutputs::ask(const ProgramAction& action) {
+    end_question();
     for (const auto& inputs : inputs_) {
         if (inputs->watch(action.number)) {
             asked_ = inputs.get();

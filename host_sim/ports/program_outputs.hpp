@@ -30,7 +30,8 @@ public:
                    hal::Clock& clock = hal::system_clock())
         : spindle_(std::move(spindle)), switches_(std::move(switches)), inputs_(std::move(inputs)), clock_(&clock) {}
 
-    /// Carries out what an event asks for, or begins to wait for its input. @pre the machine has what it is about
+    /// Carries out what an event asks for, or begins to wait for its input, in place of another one; of one that there
+    /// is not: it waits for none any more. @pre the machine has what it is about
     void act(const ProgramAction& action);
     /// Called each millisecond.
     void update();

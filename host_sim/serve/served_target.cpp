@@ -122,6 +122,11 @@ void ServedTarget::obey(const ProgramEvent& event) noexcept {
     feed_.order(action_of(event), false);
 }
 
+void ServedTarget::forget_input() noexcept {
+    constexpr std::int32_t none = -1;
+    feed_.order({.kind = EventKind::input_wait, .number = none, .text = {}}, false);
+}
+
 void ServedTarget::home(std::uint32_t axes) noexcept {
     const std::lock_guard lock(mutex_);
     orders_.home = axes;

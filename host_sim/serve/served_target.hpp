@@ -50,6 +50,7 @@ public:
     [[nodiscard]] bool has_input(std::int32_t number) const noexcept override {
         return machine_->lines.input(number) != nullptr;
     }
+    void forget_input() noexcept override;
     void watch_probe(bool /*away*/) noexcept override {}
     void home(std::uint32_t axes) noexcept override;
     bool halt() noexcept override;

@@ -279,6 +279,21 @@ TEST_CASE_METHOD(InputRun, "an input is read when the machine stands, until it a
           Told{"prepare", "segment 0", "watch 4", "unwatch", "watch 4", "unwatch", "complete", "finish"});
 }
 
+TEST_CASE_METHOD(InputRun, "another order does not answer a question; one of no input ends it", "[supervision]") {
+    submit();
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    target.executed = 1;
+    supervision.order(question(InputWait::low, 60.0), false);
+    REQUIRE(comes([&] { return target.told().back() == "watch 4"; }));
+    supervision.order(switching(EventKind::coolant_off), false);
+    supervision.order(turn(1, 100.0), false);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK_FALSE(supervision.carried_out());
+    supervision.order(switching(EventKind::input_wait, -1), false);
+    CHECK(comes([&] { return supervision.carried_out(); }));
+    CHECK(supervision.finish());
+}
+
 TEST_CASE_METHOD(InputRun, "an input that never answers does not keep a run from its end", "[supervision]") {
     target.executed = 10;
     submit();

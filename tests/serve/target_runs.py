@@ -304,6 +304,10 @@ def inputs(drives):
         require(sender.line() == "ok", "no answer")
         time.sleep(1.0)
         require(sender.report().startswith("<Run") and sender.place()[0] == 2.0, "it does not wait")
+        for switched in (b"\xa0", b"!", b"~", b"\x84", b"~"):  # coolant, hold, door: no answers
+            sender.send(switched)
+            time.sleep(0.3)
+            require(sender.place()[0] == 2.0 and not sender.text, f"{switched} ends the wait: {sender.text}")
         module.turn(2)
         require(sender.line() == "ok" and sender.line() == "ok" and sender.until("Idle") and sender.place()[0] == 4.0, "it does not go on")
         begun = time.monotonic()

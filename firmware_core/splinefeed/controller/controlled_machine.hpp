@@ -44,6 +44,8 @@ public:
     virtual void obey(const ProgramEvent& event) noexcept = 0;
     /// Whether it reads that input of M66 P; then obey() begins to wait for it.
     [[nodiscard]] virtual bool has_input(std::int32_t /*number*/) const noexcept { return false; }
+    /// That wait is given up. Other orders do not end it.
+    virtual void forget_input() noexcept {}
     /// From now on the next contact, or the loss of it, is to be noted with its place.
     virtual void watch_probe(bool away) noexcept = 0;
     /// Begins homing; read() says how it goes. @param axes  bits of the axes

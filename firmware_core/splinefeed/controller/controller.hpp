@@ -118,6 +118,7 @@ private:
     [[nodiscard]] bool carry_out() noexcept;
     void carry_out(const ProgramEvent& event) noexcept;
     void end_task() noexcept;
+    void drop_task() noexcept;
     void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;

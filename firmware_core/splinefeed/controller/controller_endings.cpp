@@ -59,7 +59,7 @@ void Controller::begin_ending(Ending ending) noexcept {
         }
     }
     forget_lines();
-    task_ = Task::none;
+    drop_task();
     ending_ = ending;
     spindle_.stop_all();
     brake();
@@ -81,7 +81,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
     }
     const AlarmRow& row = row_of(alarm);
     if (task_ != Task::none) {
-        task_ = Task::none;
+        drop_task();
         refuse(LineError::locked);
     }
     alarm_ = alarm;

@@ -249,8 +249,8 @@ void Controller::execute_block(std::string_view text) noexcept {
 
 // What is not of a program, or will be refused, does not wait.
 bool Controller::waits_for_step() const noexcept {
-    const bool waits = single_ && !steps_ && !check_ && !is_locked() && !door_ && !refuses_ && refused_lines_ == 0;
-    return waits && lines_.lines() > 0 && !lines_.begins("$"sv);
+    const bool taken = !check_ && !is_locked() && !door_ && !jogging_ && !refuses_ && refused_lines_ == 0;
+    return single_ && !steps_ && taken && lines_.lines() > 0 && !lines_.begins("$"sv);
 }
 
 // Lines that wait do not begin because it ends.

@@ -149,8 +149,15 @@ bool Controller::go_on(LineProgress progress) noexcept {
 }
 
 void Controller::end_task() noexcept {
-    task_ = Task::none;
+    drop_task();
     accept();
+}
+
+void Controller::drop_task() noexcept {
+    if (task_ == Task::input) {
+        machine_->forget_input();
+    }
+    task_ = Task::none;
 }
 
 bool Controller::carry_out() noexcept {
