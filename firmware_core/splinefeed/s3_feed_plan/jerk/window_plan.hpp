@@ -30,7 +30,7 @@ public:
     void take(std::size_t planned, std::size_t committed) noexcept {
         planned_ = planned;
         committed_ = committed;
-        running_ = searching_ = false;
+        running_ = searching_ = goes_on_ = false;
     }
     /// The front cell is travelled. @pre committed() > 0
     void pop() noexcept {
