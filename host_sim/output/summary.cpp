@@ -102,6 +102,10 @@ void write_sentences(Lines out, const Summary& summary) {
         fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
                        plural(*summary.window_limited, "time"));
     }
+    if (summary.slow_legs.value_or(0) > 0) {
+        fmt::format_to(out, "No new plan was found in {} of {} searches, and the machine went on by the plan before.\n",
+                       *summary.slow_legs, *summary.searched_legs);
+    }
     if (summary.stops > 0) {
         fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n",
                        plural(summary.stops, "corner"));

@@ -83,6 +83,8 @@ struct Summary {
     /// How often the planning window was too short to know that the plan is the best; nothing: with a jerk limit that
     /// is not known.
     std::optional<std::uint64_t> window_limited;
+    std::optional<std::uint64_t> searched_legs; ///< that a plan with a jerk limit was searched for, again and again
+    std::optional<std::uint64_t> slow_legs;     ///< of these, those without a new plan
     std::uint64_t stops = 0;                    ///< corners where the feed is zero, without the ends
     double smoothing_bound_mm = 0.0;            ///< largest distance of the emitted motion from the curve
     std::uint64_t peak_rss_bytes = 0;           ///< memory of the process; 0: unknown

@@ -128,6 +128,9 @@ constexpr WrittenKey<Sum> summary_keys[] = {
     flag<&Sum::stopped>("stopped", "The run ended before its program."),
     or_null(
         count<&Sum::window_limited>("window_limited", "How often the planning window was too short; null: not known.")),
+    or_null(count<&Sum::searched_legs>("searched_legs",
+                                       "Searches for a plan with a jerk limit; null: the jerk is not limited.")),
+    or_null(count<&Sum::slow_legs>("slow_legs", "Those that found none: the machine went on by the plan before.")),
     count<&Sum::stops>("stops", "Corners where the machine stops, without the ends."),
     quantity<&Sum::smoothing_bound_mm>("smoothing_bound_mm", "mm",
                                        "Largest distance of the emitted motion from the curve."),

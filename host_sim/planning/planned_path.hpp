@@ -39,8 +39,8 @@ public:
         std::uint64_t curve_segments = 0;            ///< that were passed to the plan
         PathCounts counts;                           ///< of a path within a tolerance
         std::optional<std::uint64_t> window_limited; ///< FeedPlan::window_limited(); none: another plan refines that
-        std::uint64_t searched_legs = 0;             ///< JerkPlan::searched_legs()
-        std::uint64_t slow_legs = 0;                 ///< JerkPlan::slow_legs()
+        std::optional<std::uint64_t> searched_legs;  ///< JerkPlan::searched_legs(); none: the jerk is not limited
+        std::optional<std::uint64_t> slow_legs;      ///< JerkPlan::slow_legs()
         std::size_t curve_bytes = 0;                 ///< memory of the stages
         std::size_t plan_bytes = 0;
         std::size_t stream_bytes = 0;

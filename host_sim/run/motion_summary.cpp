@@ -83,6 +83,8 @@ Summary Motion::summary() const {
     summary.events = operated_;
     summary.events_not_reached = events_.size() - operated_;
     summary.window_limited = path.window_limited;
+    summary.searched_legs = path.searched_legs;
+    summary.slow_legs = path.slow_legs;
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = figures_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm =

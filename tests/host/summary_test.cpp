@@ -167,6 +167,8 @@ const struct {
      [](Summary& s) {
          s.stopped = true;
          s.window_limited = 1;
+         s.searched_legs = 40;
+         s.slow_legs = 2;
          s.stops = 3;
          s.limit_use[1].acceleration = 1.5;
      }},

@@ -95,8 +95,8 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         const PlannedPath::Statistics statistics = path->statistics();
         run.most_s =
             from_rest_to_rest(machine.settings, statistics.length_mm, static_cast<double>(statistics.curve_segments));
-        run.searched_legs = statistics.searched_legs;
-        run.slow_legs = statistics.slow_legs;
+        run.searched_legs = statistics.searched_legs.value_or(0);
+        run.slow_legs = statistics.slow_legs.value_or(0);
         run.short_window = statistics.window_limited.value_or(0) > 0;
     } catch (const InputError& error) {
         run.refused = error.what();

@@ -34,6 +34,8 @@ constexpr double least_start = 0.02; // of b at a moving start
 constexpr double free_again = 4.0;   // a motion from the start that is so much faster binds no more
 constexpr double least_middle = 0.3; // of the envelope
 constexpr double of_cap = 0.9;
+constexpr double of_cap_in_motion = 0.95;
+constexpr double below_cap = 0.9999; // the plan in force may be as close to it
 
 /// From the middle of a cell to that of a later one.
 template <Floating R>
@@ -289,8 +291,8 @@ void lead_over(std::span<LegNode<R>> nodes, std::size_t known, R from) noexcept 
             const R bend = theta2 * difference + R(2) * theta1 * rise;
             middle = larger(middle - R(0.5) * half * half * bend, R(least_middle) * middle);
         }
-        const R below_cap = larger(R(0.95) * node.cap_sq, smaller(known_sq(i), R(0.9999) * node.cap_sq));
-        node.middle_sq = smaller(middle, below_cap);
+        const R in_force = smaller(known_sq(i), R(below_cap) * node.cap_sq);
+        node.middle_sq = smaller(middle, larger(R(of_cap_in_motion) * node.cap_sq, in_force));
         before = here;
         s += node.length_mm;
     }

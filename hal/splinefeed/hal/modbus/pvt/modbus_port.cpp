@@ -325,15 +325,13 @@ void ModbusPort::take(ModbusEvent event) noexcept {
 // All drives are held on the path; the port is in fault when they stand.
 void ModbusPort::fail(std::size_t drive, DriveProblem problem, ModbusEvent event) noexcept {
     failure_ = DriveFailure{drive, problem};
-    update_drives();
-    stop_.request(StopRequest::hold, now_us_, now_us_ + PortTimes::lead_us, drives_);
-    take(event);
+    begin_stop(StopRequest::hold, event);
 }
 
-void ModbusPort::begin_stop(StopRequest request) noexcept {
+void ModbusPort::begin_stop(StopRequest request, ModbusEvent event) noexcept {
     update_drives();
     stop_.request(request, now_us_, now_us_ + PortTimes::lead_us, drives_);
-    take(ModbusEvent::stop);
+    take(event);
 }
 
 void ModbusPort::await_stop() noexcept {

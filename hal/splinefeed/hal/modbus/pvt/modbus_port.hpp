@@ -113,7 +113,7 @@ private:
     [[nodiscard]] std::uint32_t common_end() const noexcept;
     void stop_together() noexcept;
     [[nodiscard]] bool all_at_standstill() const noexcept;
-    void begin_stop(StopRequest request) noexcept;
+    void begin_stop(StopRequest request, ModbusEvent event = ModbusEvent::stop) noexcept;
     void await_stop() noexcept;
     void follow_stop() noexcept;
     [[nodiscard]] std::size_t unconfirmed() const noexcept;
