@@ -122,8 +122,13 @@ InputError toml_error(std::string_view toml, const std::string& file, std::uint6
     const std::string_view value = equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
     const std::string_view number = value.substr(0, value.find_first_not_of("+-.0123456789eE"));
     const std::string_view rest = value.substr(number.size());
+    const std::string_view bare = trimmed(value.substr(0, value.find('#'))); // without a comment
     double ignored = 0.0;
-    const bool begins_with_number = read_number(number, ignored) == NumberText::number;
+    const NumberText read = read_number(number, ignored);
+    if (read == NumberText::out_of_range && bare == number) {
+        return {file, line, fmt::format("{} = {} {}", key, number, why_no_number(read))};
+    }
+    const bool begins_with_number = read == NumberText::number;
     if (begins_with_number && rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9') {
         return {file, line, fmt::format("a number has a point, not a comma: {} = {}.{}", key, number, rest.substr(1))};
     }
@@ -132,9 +137,14 @@ InputError toml_error(std::string_view toml, const std::string& file, std::uint6
                 fmt::format("behind the number stands {}; write the number alone: {} = {}", in_quotes(trimmed(rest)),
                             key, number)};
     }
+    for (const std::string_view flag : {"true", "false"}) {
+        if (std::ranges::equal(bare, flag, [](char a, char b) { return (a | 0x20) == b; })) { // in any case
+            return {file, line, fmt::format("{} is written with small letters: {} = {}", flag, key, flag)};
+        }
+    }
     if (!value.empty() &&
         ((value[0] >= 'a' && value[0] <= 'z') || (value[0] >= 'A' && value[0] <= 'Z') || value[0] == '/')) {
-        return {file, line, fmt::format("a text stands in quotes: {} = \"{}\"", key, value.substr(0, value.find('#')))};
+        return {file, line, fmt::format("a text stands in quotes: {} = \"{}\"", key, bare)};
     }
     if (text.substr(0, 1) == "[" && text.find(']') == std::string_view::npos) {
         return {file, line, fmt::format("the name of a table ends with ]: {}]", text)};

@@ -2,7 +2,7 @@
 #include "host_sim/config/toml_setting.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
 #include "host_sim/base/toml_text.hpp"
 #include "host_sim/config/axis_name.hpp"
 
@@ -34,16 +34,22 @@ bool is_word(std::string_view text) {
 
 /// A document with the value alone.
 toml::table value_of(const std::string& setting, const std::string& text) {
+    double ignored = 0.0;
+    if (const NumberText read = read_number(text, ignored); read == NumberText::out_of_range) {
+        throw UsageError(fmt::format("--set {}: {} {}", in_quotes(setting), text, why_no_number(read)));
+    }
     try {
-        return parse_toml("value = " + text + "\n", {});
+        if (toml::table document = parse_toml("value = " + text + "\n", {}); document.size() == 1) {
+            return document;
+        }
     } catch (const InputError&) {
         if (is_word(text)) {
             return parse_toml("value = \"" + text + "\"\n", {});
         }
-        throw UsageError(fmt::format("--set {}: {} is no value; it must be a number, true, false, a word, a text in "
-                                     "quotes or a list",
-                                     in_quotes(setting), in_quotes(text)));
     }
+    throw UsageError(fmt::format("--set {}: {} is no value; it must be a number, true, false, a word, a text in "
+                                 "quotes or a list",
+                                 in_quotes(setting), in_quotes(text)));
 }
 
 toml::table& axis_of(toml::table& document, const std::string& setting, std::string_view name) {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
 import os
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from . import _native
 from ._errors import warn_caller
-from ._options import is_file, options_of, points_of
+from ._options import is_file, json_of, options_of, points_of
 
 #: Nodes and weights of Gauss-Legendre for the arc length: exact to 1e-12 of a span that is smooth.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -42,9 +41,9 @@ class Curve:
     def from_json(cls, curve: Any, *, smooth: bool = False, scalar: str = "fixed") -> Curve:
         """A curve file: its segments, or the description of a curve. A path, or its document as a dict."""
         out = cls.__new__(cls)
-        text = not is_file(curve)
         if isinstance(curve, dict):
-            curve = json.dumps(curve)
+            curve = json_of(curve)
+        text = not is_file(curve)
         out._take(*_native.curve_of_description(curve if text else os.fspath(curve), text,
                                                 options_of(smooth=smooth, scalar=scalar)))
         return out

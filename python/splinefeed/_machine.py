@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -15,26 +15,34 @@ PerAxis = Union[float, Sequence[Union[float, None]], Mapping[str, float], None]
 
 
 def _toml(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
+    if isinstance(value, Mapping) or not isinstance(value, Iterable):
+        raise TypeError(f"{value!r} is no value of a machine file; it must be a number, True, False, a text or a sequence")
     return "[" + ", ".join(_toml(part) for part in value) + "]"
 
 
 def _one(value: Any, axes: Sequence[str], number: int, pairs: bool) -> Any:
     """What one axis has of an argument: the value itself, or its part of a sequence or a mapping."""
     if isinstance(value, Mapping):
-        by_name = {name.lower(): one for name, one in value.items()}
-        names = [name.lower() for name in axes]
+        by_name = {str(name).lower(): one for name, one in value.items()}
+        names = [str(name).lower() for name in axes]
         if unknown := [name for name in by_name if name not in names]:
             raise ValueError(f"there is no axis {unknown[0]!r}; the axes are {', '.join(names)}")
+        if len(by_name) < len(value):
+            raise ValueError(f"an axis is there with a small and with a capital letter: {', '.join(map(str, value))}; give one")
         return by_name.get(names[number])
-    if isinstance(value, str) or not isinstance(value, (Sequence, np.ndarray)):
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, str) or not isinstance(value, Sequence):
         return value
     if pairs and all(isinstance(part, (int, float, np.number)) for part in value):
         return value

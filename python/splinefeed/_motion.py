@@ -13,7 +13,7 @@ import numpy as np
 from . import _native
 from ._errors import warn_caller
 from ._machine import Machine, machine_or_default
-from ._options import column_of, is_file, options_of, points_of
+from ._options import column_of, is_file, json_of, options_of, points_of
 
 
 class Samples(NamedTuple):
@@ -197,7 +197,7 @@ def plan_elements(elements: Any, machine: Machine | None = None, *, tolerance_mm
     if isinstance(elements, (list, tuple)):
         elements = {"elements": list(elements)}
     if isinstance(elements, dict):
-        elements = json.dumps(elements) + "\n"
+        elements = json_of(elements)
     elif isinstance(elements, str) and elements.lstrip().startswith("{"):
         elements += "\n"
     return _plan_program("json", elements, machine,

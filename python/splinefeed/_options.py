@@ -2,6 +2,7 @@
 """Arguments in the form of the command's options, and arrays in the form of its columns."""
 from __future__ import annotations
 
+import json
 import numbers
 import os
 from typing import Any
@@ -49,6 +50,13 @@ def column_of(value: Any, rows: int) -> np.ndarray | None:
     return np.array([np.nan if one is None else float(one) for one in value])
 
 
+def json_of(document: Any) -> str:
+    """A text that is no name of a file. Raises ValueError for nan and infinity, which JSON does not have."""
+    return json.dumps(document, allow_nan=False) + "\n"
+
+
 def is_file(program: Any) -> bool:
-    """Whether it names a file: a path, or a text of one line."""
+    """Whether it names a file: a path, or a text of one line. Raises TypeError for what is neither."""
+    if not isinstance(program, (str, bytes, os.PathLike)):
+        raise TypeError(f"there must be a text or a path, not {program!r:.60}")
     return isinstance(program, os.PathLike) or (isinstance(program, str) and "\n" not in program)

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <regex>
 #include <set>
 #include <span>
 #include <sstream>
@@ -87,29 +88,9 @@ Json json_of(const toml::node& node) {
 std::vector<std::string> values_of(const FileKey& row) {
     std::vector<std::string> values{"1979-05-27", "inf", "true", "-1", "2.0", "0.3", "1e300", "''", "'x'", "{}", "[]"};
     if (row.kind > KeyKind::choice) {
-        values.insert(values.end(), {"0",
-                                     "255",
-                                     "'/'",
-                                     "nan",
-                                     "['x']",
-                                     "['']",
-                                     "[0]",
-                                     "[2, 1]",
-                                     "[true]",
-                                     "[0, 1]",
-                                     "[true, false]",
-                                     "[1, 2, 3]",
-                                     "[3, 23]",
-                                     "[3, 6.0]",
-                                     "[6, 16]",
-                                     "[-2e6, 0]",
-                                     "[1, 1e15]",
-                                     "[1, 1e16]",
-                                     "[[1, 1]]",
-                                     "[[9600.0, 1]]",
-                                     "[[9600, -1]]",
-                                     "[[9600, 60001]]",
-                                     "[[9600, 1, 1]]"});
+        values.insert(values.end(),
+                      {"0", "255", "'/'", "nan", "['x']", "['']", "[0]", "[2, 1]", "[true]", "[0, 1]", "[true, false]",
+                       "[1, 2, 3]", "[3, 23]", "[3, 6.0]", "[6, 16]", "[[1, 1]]", "[[9600.0, 1]]", "[[9600, 1, 1]]"});
     }
     const bool whole = row.kind == KeyKind::whole;
     const bool number = row.kind == KeyKind::number;
@@ -127,6 +108,35 @@ std::vector<std::string> values_of(const FileKey& row) {
     for (const std::string_view name : row.names) {
         values.push_back(fmt::format("'{}'", name));
         values.push_back(fmt::format("['{}']", name));
+    }
+    return values;
+}
+
+/// The bounds of numbers anywhere in a schema.
+void add_bounds(const Json& schema, std::set<std::int64_t>& bounds) {
+    for (const auto& [word, says] : schema.items()) {
+        if ((word == "minimum" || word == "maximum") && says.is_number_integer()) {
+            bounds.insert(says.get<std::int64_t>());
+        } else if (says.is_structured()) {
+            add_bounds(says, bounds);
+        }
+    }
+}
+
+/// A right value, as TOML, with each of its numbers at each bound of the schema, and one beside it.
+std::vector<std::string> values_at_bounds(const std::string& right, const Json& schema) {
+    std::set<std::int64_t> bounds;
+    add_bounds(schema, bounds);
+    static const std::regex number(R"(-?[0-9][0-9.]*)");
+    std::vector<std::string> values;
+    for (std::sregex_iterator at(right.begin(), right.end(), number), end; at != end; ++at) {
+        for (const std::int64_t bound : bounds) {
+            for (const std::int64_t value : {bound - 1, bound, bound + 1}) {
+                std::string text = right;
+                values.push_back(text.replace(static_cast<std::size_t>(at->position()),
+                                              static_cast<std::size_t>(at->length()), std::to_string(value)));
+            }
+        }
     }
     return values;
 }
@@ -164,12 +174,15 @@ struct Walk {
         here = before;
         for (const FileKey& row : rows.keys) {
             CAPTURE(rows.where, row.key);
+            const Json own_schema = schema_of(row);
             const toml::node* const given = before.get(row.key);
             std::vector<std::string> values;
             if (given != nullptr) {
                 std::ostringstream text;
                 text << toml::table{{"v", *given}};
-                keys.emplace(std::pair(&rows, row.key), text.str());
+                if (keys.emplace(std::pair(&rows, row.key), text.str()).second && row.kind == KeyKind::form) {
+                    values = values_at_bounds(text.str(), own_schema);
+                }
                 here.erase(row.key);
                 compare();
                 here = before;
@@ -181,7 +194,6 @@ struct Walk {
                     values.push_back("v = " + value);
                 }
             }
-            const Json own_schema = schema_of(row);
             for (const std::string& text : values) {
                 CAPTURE(text);
                 toml::table value = toml::parse(text);

@@ -74,7 +74,15 @@ void with_a_program(Summary& summary) {
 void on_drives(Summary& summary) {
     LinkSummary link;
     link.drives.push_back({"modbus-tcp://127.0.0.1:1502?unit=1", {.exchanges = 100, .segments = 90, .timeouts = 1}});
-    link.drives.push_back({"modbus-tcp://127.0.0.1:1502?unit=2", {.exchanges = 50, .segments = 45, .resent = 7}});
+    link.drives.push_back({"modbus-tcp://127.0.0.1:1502?unit=2",
+                           {.exchanges = 50,
+                            .segments = 45,
+                            .disconnects = 2,
+                            .corrupt = 3,
+                            .stale = 4,
+                            .misfits = 5,
+                            .exceptions = 6,
+                            .resent = 7}});
     link.clocks_s = 0.0005;
     link.resumes = 1;
     link.bus_s = 0.25;
@@ -98,6 +106,11 @@ void on_lines(Summary& summary) {
     summary.gpio = gpio;
 }
 
+template <auto member>
+void of_events(Summary& summary) {
+    summary.*member = 2;
+}
+
 const struct {
     const char* what;
     void (*change)(Summary&);
@@ -106,10 +119,7 @@ const struct {
      [](Summary& s) {
          s.jerk_scalar = "double";
      }},
-    {"a run that was steered",
-     [](Summary& s) {
-         s.events = 2;
-     }},
+    {"a run that was steered", of_events<&Summary::events>},
     {"what a program asked for", with_a_program},
     {"a program that has begun no line",
      [](Summary& s) {
@@ -121,6 +131,7 @@ const struct {
          on_drives(s);
          s.link->target_period_us = 2000;
          s.link->between_targets_mm = 0.003;
+         s.link->late_us = 700;
      }},
     {"a run on lines", on_lines},
     {"a curve of control points has no waypoint error",
@@ -172,10 +183,7 @@ const struct {
          s.stops = 3;
          s.limit_use[1].acceleration = 1.5;
      }},
-    {"events that the run did not reach",
-     [](Summary& s) {
-         s.events_not_reached = 2;
-     }},
+    {"events that the run did not reach", of_events<&Summary::events_not_reached>},
     {"a path within a tolerance", within_a_tolerance},
     {"a tolerance that was not kept",
      [](Summary& s) {

@@ -147,6 +147,11 @@ class Machines(Scratch):
             other = Machine.from_toml(self.folder / "m.toml", set={f"axis.{name}.max_jerk_mm_s3": 10000})
             np.testing.assert_array_equal(other.limits["max_jerk_mm_s3"], [10000, np.nan, 20000])
 
+    def test_a_number_may_be_an_array_and_a_name_any_text(self):
+        machine = Machine("x", **{**LIMITS, "max_feed_mm_s": np.array(80), "max_velocity_mm_s": np.array(90.5)}, name="a \x7f\t\"\\ ü")
+        self.assertEqual((machine.limits["max_feed_mm_s"], list(machine.limits["max_velocity_mm_s"])), (80, [90.5]))
+        self.assertEqual(machine.name, "a \x7f\t\"\\ ü")
+
     def test_the_default_machine_is_the_command_s(self):
         default = _native.default_machine().limits
         self.assertEqual(str(Machine.default().limits), str({key: np.array(v) if isinstance(v, list) else v for key, v in default.items()}))

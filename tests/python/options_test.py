@@ -82,6 +82,14 @@ REFUSALS = [
     (lambda: splinefeed.plan_gcode("none.ngc"), InputError, "none.ngc: cannot be opened"),
     (lambda: Machine("xy", **LIMITS, max_jerk_mm_s3=1, sample_period_us=50), InputError, "machine: the sample period is too short for the acceleration"),
     (lambda: Machine("xyz", **LIMITS, max_jerk_mm_s3={"u": 30000}), ValueError, "there is no axis 'u'; the axes are x, y, z"),
+    *((lambda keys=keys: Machine("xyz", **{**LIMITS, **keys}), error, sentence) for keys, error, sentence in (
+        ({"max_jerk_mm_s3": {0: 30000}}, ValueError, "there is no axis '0'; the axes are x, y, z"),
+        ({"max_jerk_mm_s3": {"X": 30000, "x": 40000}}, ValueError, "an axis is there with a small and with a capital letter: X, x; give one"),
+        ({"max_feed_mm_s": 3j}, TypeError, "3j is no value of a machine file; it must be a number,"))),
+    (lambda: Machine.from_toml("machine", set={"axis.x.invert": None}), TypeError, "None is no value of a machine file"),
+    *((lambda call=call: call(3), TypeError, "there must be a text or a path, not 3")
+      for call in (splinefeed.plan_gcode, splinefeed.plan_elements, Curve.from_json)),
+    *((lambda call=call: call({"segments": [np.inf]}), ValueError, "not JSON compliant") for call in (splinefeed.plan_elements, Curve.from_json)),
 ]
 
 DEGREE_9 = {"method": "bspline_interpolation", "input": {"points": POINTS[:20].tolist(), "degree": 9}}
