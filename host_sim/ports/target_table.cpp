@@ -7,6 +7,8 @@
 
 #include <array>
 #include <fmt/format.h>
+#include <string_view>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -45,9 +47,15 @@ std::string target_help(bool served) {
     return text;
 }
 
-const TargetKind& target_kind(const std::string& target) {
-    std::string names = "sim";
+const TargetKind& target_kind(const std::string& target, bool served) {
+    std::vector<std::string_view> names{"sim"};
     for (const TargetKind* const kind : kinds) {
+        const bool offered = kind->serves || !served;
+        if (kind->is(target) && !offered) {
+            throw UsageError(fmt::format("--target {}: serve moves drives on Modbus, and no others so far; splinefeed "
+                                         "run moves these",
+                                         in_quotes(target)));
+        }
         if (kind->is(target)) {
             try {
                 kind->check(target);
@@ -56,14 +64,17 @@ const TargetKind& target_kind(const std::string& target) {
             }
             return *kind;
         }
-        names += kind == kinds.back() ? " and " : ", ";
-        names += kind->names;
+        if (offered) {
+            names.push_back(kind->names);
+        }
     }
+    const std::string_view last = names.back();
+    names.pop_back();
     const std::string meant = meant_target(target);
-    throw UsageError(
-        meant.empty()
-            ? fmt::format("--target {}: there is no such target; available are {}", in_quotes(target), names)
-            : fmt::format("--target {}: it does not say what is there; did you mean {}?", in_quotes(target), meant));
+    throw UsageError(meant.empty() ? fmt::format("--target {}: there is no such target; available are {} and {}",
+                                                 in_quotes(target), fmt::join(names, ", "), last)
+                                   : fmt::format("--target {}: it does not say what is there; did you mean {}?",
+                                                 in_quotes(target), meant));
 }
 
 void check_target(const std::string& target) {

@@ -33,8 +33,8 @@ struct TargetKind {
 [[nodiscard]] std::string target_help(bool served = false);
 
 /// The kind of a target whose address is right. Throws UsageError, with the option, if there is none.
-/// @pre not "sim"
-[[nodiscard]] const TargetKind& target_kind(const std::string& target);
+/// @pre not "sim"   @param served  as of target_help()
+[[nodiscard]] const TargetKind& target_kind(const std::string& target, bool served = false);
 
 /// Checks that --target can have this value: sim, or a target of some kind. Throws UsageError if not.
 void check_target(const std::string& target);

@@ -34,13 +34,8 @@ PerAxis<double> places_of(const MachineState& state, const MachineDescription& m
 /// Connects to it. The machine's limits become those that it carries.
 std::unique_ptr<ServedMachine> make_target(const std::string& target, RunMachine& machine,
                                            const PerAxis<double>& told) {
-    const TargetKind& kind = target_kind(target);
-    if (!kind.serves) {
-        throw UsageError(fmt::format("--target {}: serve moves drives on Modbus, and no others so far; splinefeed run "
-                                     "moves these",
-                                     in_quotes(target)));
-    }
-    std::unique_ptr<RunTarget> made = kind.make(target, machine.machine, {.interrupted = &ServedTarget::gives_up});
+    std::unique_ptr<RunTarget> made =
+        target_kind(target, true).make(target, machine.machine, {.interrupted = &ServedTarget::gives_up});
     const PlanFigures figures = fit_to_target(machine.machine, ScalarKind::fixed, *made, false);
     return std::make_unique<ServedTarget>(std::move(made), machine.machine, figures.segment_ticks, told,
                                           [&machine, target] { return make_outputs(machine.machine, target); });
