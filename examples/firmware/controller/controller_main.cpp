@@ -37,13 +37,9 @@ std::atomic<bool> limit;
 /// Milliseconds since the start.
 class Clock {
 public:
-    /// The watchdog is fed as long as the timer runs, and so does the main loop.
     std::uint32_t look() noexcept {
         const std::uint32_t ticks = steps->ticks();
-        if (ticks != ticks_) {
-            ticks_ = ticks;
-            board::feed_watchdog();
-        }
+        feeder_.look(ticks);
         for (; ticks - counted_ >= ticks_per_ms; counted_ += ticks_per_ms) {
             ++now_ms_;
         }
@@ -53,7 +49,7 @@ public:
 private:
     static constexpr std::uint32_t ticks_per_ms = 1000 / board::tick_us;
     static_assert(1000 % board::tick_us == 0);
-    std::uint32_t ticks_ = 0;
+    WatchdogFeeder feeder_;
     std::uint32_t counted_ = 0;
     std::uint32_t now_ms_ = 0;
 };
@@ -92,11 +88,7 @@ bool work(std::uint32_t now_ms) noexcept {
 } // namespace
 
 void on_tick() {
-    board::acknowledge_tick();
-    const Inputs inputs = board::read_inputs();
-    if (inputs.estop) {
-        board::enable_drives(false);
-    }
+    const Inputs inputs = begin_tick();
     estop.store(inputs.estop, std::memory_order_relaxed);
     limit.store(inputs.limit, std::memory_order_relaxed);
     // Not the functions themselves: those would be called by their addresses.
