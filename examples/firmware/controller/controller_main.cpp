@@ -71,8 +71,9 @@ bool exchange(std::uint32_t now_ms) noexcept {
 
 /// A round of the main loop; returns whether another one has something to do at once.
 bool work(std::uint32_t now_ms) noexcept {
-    const bool talks = exchange(now_ms);
+    // In this order: what a reset has stopped is not seen before the reset itself.
     stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, line->bytes_lost());
+    const bool talks = exchange(now_ms);
     if (!stepper->has_room()) {
         controller->execute(now_ms);
         return talks;
@@ -93,7 +94,8 @@ void on_tick() {
     limit.store(inputs.limit, std::memory_order_relaxed);
     // Not the functions themselves: those would be called by their addresses.
     steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
-    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); })) {
+    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
+        !steps->stands()) {
         steps->order(Stop::halted); // the controller will ask for the same
     }
 }
