@@ -37,4 +37,28 @@ inline void energise_drives() {
     board::enable_drives(!board::read_inputs().estop);
 }
 
+/// What the interrupt does first. The tick that reads the emergency stop takes the power of the drives.
+inline Inputs begin_tick() {
+    board::acknowledge_tick();
+    const Inputs inputs = board::read_inputs();
+    if (inputs.estop) {
+        board::enable_drives(false);
+    }
+    return inputs;
+}
+
+/// Feeds the watchdog as long as the timer runs, and so does the main loop that calls it.
+class WatchdogFeeder {
+public:
+    void look(std::uint32_t ticks) noexcept {
+        if (ticks != ticks_) {
+            ticks_ = ticks;
+            board::feed_watchdog();
+        }
+    }
+
+private:
+    std::uint32_t ticks_ = 0;
+};
+
 } // namespace firmware

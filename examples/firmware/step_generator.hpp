@@ -109,7 +109,7 @@ public:
 
     /// Whether steps are made, or still will be: false at standstill, also where the ring ran out.
     [[nodiscard]] bool active() const noexcept { return active_.load(std::memory_order_acquire); }
-    /// What stopped the machine: it moves again after restart() and forgive().
+    /// What stopped the machine, first or by the emergency stop: it moves again after restart() and forgive().
     [[nodiscard]] Stop stopped() const noexcept { return stop_.load(std::memory_order_acquire); }
     /// How many times the ring ran out in a motion.
     [[nodiscard]] std::uint32_t underruns() const noexcept { return underruns_.load(std::memory_order_relaxed); }
@@ -211,7 +211,9 @@ private:
         leaving_ = lookahead_.leaving_steps;
         stopping_ = Stop::none;
         moving_ = false;
-        stop_.store(reason, std::memory_order_relaxed);
+        if (reason == Stop::estop || stop_.load(std::memory_order_relaxed) == Stop::none) {
+            stop_.store(reason, std::memory_order_relaxed);
+        }
     }
     [[nodiscard]] bool rest_ahead() const noexcept {
         return rests_pushed_.load(std::memory_order_acquire) != rests_passed_;

@@ -124,6 +124,15 @@ def travels(bench):
     return f"a program of {len(PROGRAM)} lines, {len(steps)} steps, as planned"
 
 
+def reset_at_rest(bench):
+    """A reset stops nothing there, so neither does a second one at its heels."""
+    bench.reset()
+    bench.sender.send(b"\x18\x18")
+    bench.sender.wait_ms(50)
+    check(b"ALARM" not in bench.sender.text and GREETING.encode() in bench.sender.text, f"two resets at rest: {bench.sender.text!r}")
+    return "two resets at rest"
+
+
 def under_way(bench):
     bench.reset()
     bench.ask("G1 X200 F6000\n", "ok")
@@ -207,7 +216,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(os.path.abspath(tool), image, machine, folder)
         try:
-            tests = [tells_its_numbers, travels, switched_off, limited, stops]
+            tests = [tells_its_numbers, travels, reset_at_rest, switched_off, limited, stops]
             if machine == "lm3s6965evb":  # the code of the other board is the same
                 tests.append(conforms)
             for test in tests:

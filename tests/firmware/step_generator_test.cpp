@@ -80,6 +80,13 @@ struct Bench {
         }
         return pulses - before;
     }
+    /// So many milliseconds, with all of the parts that there is room for.
+    void travel(const std::vector<MotionPart>& parts, int milliseconds) {
+        for (int ms = 0; ms < milliseconds; ++ms) {
+            fill(parts, parts.size());
+            run();
+        }
+    }
 
     std::vector<MotionPart> storage;
     std::unique_ptr<firmware::StepGenerator<axes>> steps;
@@ -174,11 +181,7 @@ TEST_CASE("Step generator: an emergency stop ends all pulses with its tick", "[g
     const std::vector<MotionPart> parts = motion(400, true);
     for (unsigned at = 0; at < 40; ++at) {
         Bench bench(128);
-        bench.fill(parts, parts.size());
-        for (int ms = 0; ms < 100; ++ms) {
-            bench.fill(parts, parts.size());
-            bench.run();
-        }
+        bench.travel(parts, 100);
         const auto write = [&](firmware::Lines lines) {
             bench.pulses += static_cast<std::int32_t>(lines.step & 1U);
         };
@@ -264,10 +267,7 @@ TEST_CASE("Step generator: a switch that stays pressed stops every motion that d
 TEST_CASE("Step generator: told to halt it slows down from the next tick on", "[generator]") {
     const std::vector<MotionPart> parts = motion(600, true);
     Bench bench(128);
-    for (int ms = 0; ms < 200; ++ms) {
-        bench.fill(parts, parts.size());
-        bench.run();
-    }
+    bench.travel(parts, 200);
     bench.steps->order(Stop::halted);
     CHECK_FALSE(bench.steps->stands());
     const int first = bench.run();
@@ -308,13 +308,30 @@ TEST_CASE("Step generator: told to halt before a motion begins, or just before i
     }
 }
 
+TEST_CASE("Step generator: what stopped it stays known behind an order, and an emergency stop behind all",
+          "[generator]") {
+    const std::vector<MotionPart> parts = motion(600, true);
+    Bench bench(128);
+    bench.travel(parts, 200);
+    for (int ms = 0; ms < 140; ++ms) {
+        bench.run({false, true});
+    }
+    CHECK(bench.steps->stopped() == Stop::limit);
+    for (const Stop order : {Stop::halted, Stop::cut}) {
+        bench.steps->order(order);
+        bench.run();
+        CHECK(bench.steps->stopped() == Stop::limit);
+    }
+    bench.run({true, false});
+    bench.steps->order(Stop::halted);
+    bench.run();
+    CHECK(bench.steps->stopped() == Stop::estop);
+}
+
 TEST_CASE("Step generator: cut off, no pulse begins any more, and it counts those that were made", "[generator]") {
     const std::vector<MotionPart> parts = motion(600, true);
     Bench bench(128);
-    for (int ms = 0; ms < 100; ++ms) {
-        bench.fill(parts, parts.size());
-        bench.run();
-    }
+    bench.travel(parts, 100);
     bench.steps->order(Stop::cut);
     CHECK(bench.run() == 0);
     CHECK(bench.steps->stopped() == Stop::cut);

@@ -37,13 +37,9 @@ std::atomic<bool> limit;
 /// Milliseconds since the start.
 class Clock {
 public:
-    /// The watchdog is fed as long as the timer runs, and so does the main loop.
     std::uint32_t look() noexcept {
         const std::uint32_t ticks = steps->ticks();
-        if (ticks != ticks_) {
-            ticks_ = ticks;
-            board::feed_watchdog();
-        }
+        feeder_.look(ticks);
         for (; ticks - counted_ >= ticks_per_ms; counted_ += ticks_per_ms) {
             ++now_ms_;
         }
@@ -53,7 +49,7 @@ public:
 private:
     static constexpr std::uint32_t ticks_per_ms = 1000 / board::tick_us;
     static_assert(1000 % board::tick_us == 0);
-    std::uint32_t ticks_ = 0;
+    WatchdogFeeder feeder_;
     std::uint32_t counted_ = 0;
     std::uint32_t now_ms_ = 0;
 };
@@ -75,8 +71,9 @@ bool exchange(std::uint32_t now_ms) noexcept {
 
 /// A round of the main loop; returns whether another one has something to do at once.
 bool work(std::uint32_t now_ms) noexcept {
-    const bool talks = exchange(now_ms);
+    // In this order: what a reset has stopped is not seen before the reset itself.
     stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, line->bytes_lost());
+    const bool talks = exchange(now_ms);
     if (!stepper->has_room()) {
         controller->execute(now_ms);
         return talks;
@@ -92,16 +89,13 @@ bool work(std::uint32_t now_ms) noexcept {
 } // namespace
 
 void on_tick() {
-    board::acknowledge_tick();
-    const Inputs inputs = board::read_inputs();
-    if (inputs.estop) {
-        board::enable_drives(false);
-    }
+    const Inputs inputs = begin_tick();
     estop.store(inputs.estop, std::memory_order_relaxed);
     limit.store(inputs.limit, std::memory_order_relaxed);
     // Not the functions themselves: those would be called by their addresses.
     steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
-    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); })) {
+    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
+        !steps->stands()) {
         steps->order(Stop::halted); // the controller will ask for the same
     }
 }

@@ -27,11 +27,7 @@ std::atomic<bool> limit; // pressed, at the last tick
 } // namespace
 
 void on_tick() {
-    board::acknowledge_tick();
-    Inputs inputs = board::read_inputs();
-    if (inputs.estop) {
-        board::enable_drives(false);
-    }
+    Inputs inputs = begin_tick();
     limit.store(inputs.limit, std::memory_order_relaxed);
     inputs.limit = false; // the drive stops its axes itself
     // Not the functions themselves: those would be called by their addresses.
@@ -50,13 +46,10 @@ int main() {
     PvtRegisters& map = registers.build(motion, boot_number());
     board::start_timer();
     board::start_watchdog();
-    std::uint32_t ticks = generator.ticks();
+    WatchdogFeeder feeder;
     bool powered = false;
     for (;;) {
-        if (ticks != generator.ticks()) { // the timer runs, and so does this loop
-            ticks = generator.ticks();
-            board::feed_watchdog();
-        }
+        feeder.look(generator.ticks());
         motion.poll(limit.load(std::memory_order_relaxed));
         if (motion.powered() != powered) {
             powered = !powered;

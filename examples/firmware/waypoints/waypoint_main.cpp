@@ -19,11 +19,7 @@ splinefeed::Slot<Motion> motion;
 } // namespace
 
 void on_tick() {
-    board::acknowledge_tick();
-    const Inputs inputs = board::read_inputs();
-    if (inputs.estop) {
-        board::enable_drives(false);
-    }
+    const Inputs inputs = begin_tick();
     // Not the functions themselves: those would be called by their addresses.
     steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
     serial->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
@@ -41,12 +37,9 @@ int main() {
     board::start_timer();
     board::start_watchdog();
     console.greet();
-    std::uint32_t ticks = generator.ticks();
+    WatchdogFeeder feeder;
     while (!console.stalled()) {
-        if (ticks != generator.ticks()) { // the timer runs, and so does this loop
-            ticks = generator.ticks();
-            board::feed_watchdog();
-        }
+        feeder.look(generator.ticks());
         console.poll();
         planner.plan();
     }
