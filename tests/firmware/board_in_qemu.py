@@ -162,9 +162,9 @@ class Board:
     def run_ticks(self, count, take):
         """Lets it run for so many ticks of the machine, and halts it: until the next send() nothing happens there. `take` receives what it
         says meanwhile: QEMU waits, and answers no command, while some 200 bytes are not received."""
+        struct.pack_into("=I", self.contacts, 20, self.tick() + count)
         self.go_on()
         self.halts = True
-        struct.pack_into("=I", self.contacts, 20, self.tick() + count)
         while struct.unpack_from("=I", self.contacts, 20)[0] != 0:
             take(0.001)
         while take(0.0) or not self.halted():

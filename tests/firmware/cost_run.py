@@ -11,7 +11,6 @@ import sys
 import tempfile
 
 from board_in_qemu import Board, BoardFailed, built_plugin, plugins_refused
-from operated_board import BoardSender
 from operated_run import PROGRAM
 from planned import waypoints
 
@@ -44,13 +43,13 @@ def of_waypoints(board, rows):
 
 
 def operated(board, lines):
-    """All lines fit into the board's buffer. One question at a time: with more QEMU and the test would wait for each other."""
-    sender = BoardSender(board)
-    sender.line()
-    sender.line()
-    sender.send("".join(f"{line}\n" for line in lines).encode())
-    while not sender.report().startswith("<Idle|"):
-        pass
+    """All lines fit into the board's buffer, and wait there behind M0. One question at a time: with more QEMU and the test would wait for
+    each other."""
+    board.wait_for("Grbl ")
+    for text, state in (("".join(f"{line}\n" for line in ["M0", *lines]), "<Hold:0|"), ("~", "<Idle|")):
+        board.send(text + "?")
+        while not board.wait_for("<")[0].startswith(state):
+            board.send("?")
 
 
 def finish(board):

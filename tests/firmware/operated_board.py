@@ -12,12 +12,16 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "serve")
 from sender import Failed, Sender  # noqa: E402
 
 
+SLICE_MS = 20
+
+
 class BoardSender(Sender):
-    """As tests/serve has it. Between two lines of a case the board may run on as far as the host lets it, but a wait is exact, and at its
-    end the board halts until something is sent."""
+    """As tests/serve has it. The board runs only while something is waited for, and then in slices: however busy the host is, it passes
+    no more of the machine's time than a slice without taking what was sent."""
+    PATIENCE_S = WAIT_S
 
     def __init__(self, board):
-        self.board, self.socket, self.text = board, None, b""
+        self.board, self.text = board, b""
         self.ms = 1_000_000 // board.kind.tick_ns  # ticks
 
     def send(self, data):
@@ -25,7 +29,14 @@ class BoardSender(Sender):
         if self.board.halts:  # what answers also fills the UART's FIFO: a byte that acts at once comes at this instant of the machine's time
             self.board.halted()
             self.board.halted()
-        self.board.go_on()
+
+    def begin(self, lines):
+        """A program that begins when the board has received all of it, however late a busy host sends it: at M0 it waits for that."""
+        self.send("".join(f"{line}\n" for line in ["M0", *lines]).encode())
+        self.until("Hold:0")
+        if not (line := self.line()).startswith("[MSG:Program paused"):
+            raise Failed(f"at M0 it said {line!r}")
+        self.send(b"~")
 
     def take(self, seconds):
         """Whether something has come."""
@@ -40,16 +51,18 @@ class BoardSender(Sender):
     def read(self, seconds):
         if self.take(0.0):
             return True
-        self.board.go_on()
-        return self.take(max(seconds, 0.0))
-
-    def line(self, seconds=20.0):
-        return super().line(seconds)
+        until = time.monotonic() + seconds
+        had, ms = len(self.text), 5
+        while len(self.text) == had and time.monotonic() < until:
+            self.board.run_ticks(ms * self.ms, self.take)
+            ms = min(2 * ms, SLICE_MS)
+        return len(self.text) > had
 
     def wait_ms(self, ms):
-        self.board.run_ticks(ms * self.ms, self.take)
+        for part in range(0, ms, SLICE_MS):
+            self.board.run_ticks(min(SLICE_MS, ms - part) * self.ms, self.take)
 
-    def until(self, state, seconds=30.0):
+    def until(self, state, seconds=WAIT_S):
         until = time.monotonic() + seconds
         while (report := self.report())[1:].split("|")[0] not in state.split("|"):
             if time.monotonic() > until:

@@ -25,8 +25,8 @@ GREETING = "Grbl 1.1h ['$' for help]"
 NUMBERS = """$0=50 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $10=3 $11=0.010 $12=0.002 $13=0 $20=1 $21=1 $22=0 $23=0 $24=0.000 $25=0.000 $26=0 $27=0.000
 $30=1000.000 $31=0.000 $32=0 $100=80.000 $101=80.000 $102=400.000 $110=6000.000 $111=6000.000 $112=1200.000
 $120=1000.000 $121=1000.000 $122=200.000 $130=300.000 $131=200.000 $132=80.000 ok""".split()
-# Corners, an arc, a chain of short lines, a reversal. It dwells until all of it has come, however late a busy host sends it.
-PROGRAM = ["G4 P2", "G21 G90 G64 P0.02", "G1 X20 F3000", "Y10", "G2 X30 Y20 I10 J0", "G1 X32 Y15 Z-1",
+# Corners, an arc, a chain of short lines, a reversal.
+PROGRAM = ["G21 G90 G64 P0.02", "G1 X20 F3000", "Y10", "G2 X30 Y20 I10 J0", "G1 X32 Y15 Z-1",
            *(f"X{32 + 0.5 * i:.3f} Y{15 + 0.04 * i * i:.3f}" for i in range(1, 25)), "G61 X40 Z-3 F1200", "G0 X5 Y5", "Z0"]
 
 
@@ -104,17 +104,10 @@ def planned_steps(bench):
 
 
 def travels(bench):
-    """A program, by counting characters: the steps of each axis are those of the tool's plan."""
+    """A program: the steps of each axis are those of the tool's plan."""
     bench.reset()
-    waiting, answered = [], 0
-    for line in PROGRAM:
-        while sum(waiting) + len(line) + 1 > 1024:
-            bench.expect("ok")
-            answered += 1
-            waiting.pop(0)
-        bench.sender.send(f"{line}\n".encode())
-        waiting.append(len(line) + 1)
-    bench.expect(*["ok"] * (len(PROGRAM) - answered))
+    bench.sender.begin(PROGRAM)
+    bench.expect(*["ok"] * (1 + len(PROGRAM)))
     bench.sender.until("Idle")
     steps, planned = steps_made(bench.levels()), planned_steps(bench)
     check(bench.counts() == counts_after((0, 0, 0), steps), f"it says {bench.counts()}, its pins went to {counts_after((0, 0, 0), steps)}")
@@ -135,7 +128,8 @@ def reset_at_rest(bench):
 
 def under_way(bench):
     bench.reset()
-    bench.ask("G1 X200 F6000\n", "ok")
+    bench.sender.begin(["G1 X200 F6000"])
+    bench.expect("ok", "ok")
     bench.sender.wait_ms(500)
 
 
@@ -185,13 +179,13 @@ def limited(bench):
 def stops(bench):
     """Bytes that stop, behind lines that wait: when the machine begins to slow down, and when it stands."""
     said = []
-    for byte, lines in (("\x85", b"$J=X200 F6000\n"), ("\x18", b"G1 X200 F6000\n"), ("!", b"G1 X200 F6000\n")):
+    for byte in "\x85", "\x18", "!":
         bench.reset()
-        bench.sender.send(lines)
-        bench.sender.wait_ms(500)
-        if byte != "\x85":
-            bench.sender.send(b"".join(b"X%d.5\n" % (199 - i % 2) for i in range(100)))
-            bench.sender.wait_ms(200)
+        if byte == "\x85":
+            bench.sender.send(b"$J=X200 F6000\n")
+        else:
+            bench.sender.begin(["G1 X200 F6000", *(f"X{199 - i % 2}.5" for i in range(100))])
+        bench.sender.wait_ms(700)
         bench.levels()
         sent = bench.board.tick()
         bench.sender.send(byte.encode("latin-1"))

@@ -77,6 +77,8 @@ class ServedDrives:
 
 
 class Sender:
+    PATIENCE_S = 10.0
+
     def __init__(self, server, kind="tcp"):
         if kind == "tcp":
             self.socket = socket.create_connection(("127.0.0.1", server.port))
@@ -103,9 +105,9 @@ class Sender:
         self.text += part
         return True
 
-    def line(self, seconds=10.0):
+    def line(self):
         """The next one, without its end."""
-        until = time.monotonic() + seconds
+        until = time.monotonic() + self.PATIENCE_S
         while b"\n" not in self.text:
             if time.monotonic() > until or not self.read(until - time.monotonic()):
                 raise Failed(f"nothing more is said: {self.text!r}")
@@ -116,7 +118,7 @@ class Sender:
 
     def report(self):
         """The status; what else is said meanwhile stays to be read."""
-        kept, until = self.text, time.monotonic() + 10.0
+        kept, until = self.text, time.monotonic() + self.PATIENCE_S
         self.text = b""
         self.send(b"?")
         while time.monotonic() < until:
