@@ -49,6 +49,11 @@ struct CurveSegment {
     /// @pre axes, degree, origin are set; |offset| < 2^30 chord units
     void assign(const PerAxis<PerDegree<S>>& offsets) noexcept;
 
+    /// Where it begins, with the rounding of its control points.
+    [[nodiscard]] constexpr Position start(unsigned axis) const noexcept {
+        return displaced(origin[axis], control[axis][0], unit_log2);
+    }
+
     /// Bezier point i of an axis in mm. For files, on the host.
     [[nodiscard]] double control_mm(int axis, int i) const noexcept {
         const auto k = static_cast<unsigned>(axis);

@@ -211,8 +211,7 @@ Position ArcLength<S>::end_of(int piece, unsigned axis) const noexcept {
             return stack_[static_cast<unsigned>(piece - 1)].start[axis];
         }
     }
-    const CurveSegment<S>& ahead = slots_[1 - current_];
-    return stop_after_ ? current().end[axis] : displaced(ahead.origin[axis], ahead.control[axis][0], ahead.unit_log2);
+    return stop_after_ ? current().end[axis] : slots_[1 - current_].start(axis);
 }
 
 // Rounded control points move the end of their piece. To avoid a step of the path there, the cell ends where the next
@@ -301,6 +300,11 @@ Pull ArcLength<S>::load() noexcept {
     }
     has_ahead_ = pull == Pull::item;
     stop_after_ = current().stop_at_end || !has_ahead_ || direction_jumps(current(), ahead, refinement_.direction_jump);
+    if (counts_from_own_start<S> && stop_after_ && has_ahead_) {
+        for (const unsigned k : indices(ahead.axes)) { // from where it stands: a long segment's rounding would be a step
+            ahead.origin[k].raw += current().end[k].raw - ahead.start(k).raw;
+        }
+    }
     const S block = current().block_feed_mm_s();
     const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
     // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still has some.

@@ -79,8 +79,7 @@ Status CheckedSource<S>::check(const CurveSegment<S>& segment) const noexcept {
             return Error::counts_out_of_range;
         }
         if (from_ != nullptr) {
-            const Position begins = displaced(segment.origin[k], segment.control[k][0], segment.unit_log2);
-            const std::int64_t beside = begins.raw - (*from_)[k].raw;
+            const std::int64_t beside = segment.start(k).raw - (*from_)[k].raw;
             if (beside > beside_raw || beside < -beside_raw) {
                 return Error::start_elsewhere;
             }
