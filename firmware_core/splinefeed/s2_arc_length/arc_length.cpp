@@ -301,7 +301,8 @@ Pull ArcLength<S>::load() noexcept {
     has_ahead_ = pull == Pull::item;
     stop_after_ = current().stop_at_end || !has_ahead_ || direction_jumps(current(), ahead, refinement_.direction_jump);
     if (counts_from_own_start<S> && stop_after_ && has_ahead_) {
-        for (const unsigned k : indices(ahead.axes)) { // from where it stands: a long segment's rounding would be a step
+        for (const unsigned k :
+             indices(ahead.axes)) { // from where it stands: a long segment's rounding would be a step
             ahead.origin[k].raw += current().end[k].raw - ahead.start(k).raw;
         }
     }

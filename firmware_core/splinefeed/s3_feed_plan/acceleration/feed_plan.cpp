@@ -133,9 +133,9 @@ bool FeedPlan<S>::may_peak(S fastest_entry) const noexcept {
     if (leads_ || steering_.stops() || !has_parts(cell()) || speed_sq_ > wanted_sq()) {
         return false;
     }
+    const bool brakes = !(speed_sq_ < fastest_entry) && fastest_entry < front().peak.entry_sq;
     return peaks_ || cell().degree == 1 ||
-           (!steered_ && at_ == S{} && speed_sq_ < fastest_entry &&
-            scale2(smaller(speed_sq_, wanted_exit_), 1) < wanted_sq());
+           (!steered_ && at_ == S{} && !brakes && scale2(smaller(speed_sq_, wanted_exit_), 1) < wanted_sq());
 }
 
 // The speed within the cell need not be between those at its ends.
