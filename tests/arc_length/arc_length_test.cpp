@@ -272,13 +272,13 @@ TEMPLATE_TEST_CASE("a slow feed does not turn a line into a cusp", "[arc_length]
 
 TEMPLATE_TEST_CASE("a cusp costs few cells and adds no length", "[arc_length]", double, Fixed) {
     const auto coincident = [](int degree) {
-        BezierShape shape;
+        TestShape shape;
         shape.axes = 2;
         shape.degree = degree;
         shape.offset[0][static_cast<unsigned>(degree)] = 10.0; // all other Bezier points at the start
         return shape;
     };
-    for (const BezierShape& shape :
+    for (const TestShape& shape :
          {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(0.0, 0.0, 5.0, 10.0, 10.0, 0.0),
           cubic_shape(0.0, 0.0, 0.0, 0.0, 10.0, 0.0), cubic_shape(10.0, 0.0, 10.0, 0.0, 0.0, 0.0), coincident(5),
           coincident(9)}) {

@@ -59,7 +59,7 @@ TEMPLATE_TEST_CASE("a jump of direction is a stop, a smooth joint is none", "[ar
     Random random(21);
     BezierPath path{random_shape(random, 3, 3, 20.0)};
     for (int i = 0; i < 30; ++i) {
-        BezierShape next = random_shape(random, 3, random.integer(3, 6), random.decades(2.0, 50.0));
+        TestShape next = random_shape(random, 3, random.integer(3, 6), random.decades(2.0, 50.0));
         join_smoothly(path.back(), next);
         path.push_back(next);
     }
@@ -166,7 +166,7 @@ TEMPLATE_TEST_CASE("a line behind a curve is straight", "[arc_length]", double, 
 }
 
 TEMPLATE_TEST_CASE("a cusp inside of a segment is a stop", "[arc_length]", double, Fixed) {
-    for (const BezierShape& shape :
+    for (const TestShape& shape :
          {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0)}) {
         const auto cells = cut<TestType>({shape, line_shape(2, 1, {-5.0, 0.0})});
         std::size_t chords = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t seed = 20261127;
 
 template <Scalar S>
-Cell<S> cell_of(const BezierShape& line, const MotionLimits<S>& limits) {
+Cell<S> cell_of(const TestShape& line, const MotionLimits<S>& limits) {
     ListSource<S> source(BezierPath{line});
     ArcLength<S> arc_length(source, limits.refinement);
     Cell<S> cell;

@@ -122,7 +122,7 @@ TEMPLATE_TEST_CASE("a circle runs at the speed that its curvature allows", "[fee
         for (int i = 0; i < 4; ++i) {
             const double c = i % 2 == 0 ? 1.0 - i : 0.0;
             const double s = i % 2 == 1 ? 2.0 - i : 0.0;
-            BezierShape quarter = cubic_shape(h, 0.0, 10.0, 10.0 - h, 10.0, 10.0);
+            TestShape quarter = cubic_shape(h, 0.0, 10.0, 10.0 - h, 10.0, 10.0);
             for (unsigned j = 0; j < 4; ++j) {
                 const double x = quarter.offset[0][j];
                 const double y = quarter.offset[1][j];

@@ -45,7 +45,7 @@ double trapezoid(double length, double speed, double acceleration) {
 }
 
 BezierPath line(double length, int degree = 1, int pieces = 1) {
-    const BezierShape piece = line_shape(2, degree, {0.6 * length / pieces, 0.8 * length / pieces});
+    const TestShape piece = line_shape(2, degree, {0.6 * length / pieces, 0.8 * length / pieces});
     return BezierPath(static_cast<std::size_t>(pieces), piece);
 }
 
@@ -68,9 +68,9 @@ BezierPath circle(double radius, int pieces = 64) {
 // The halves of a segment, by de Casteljau.
 BezierPath halves(const BezierPath& path) {
     BezierPath out;
-    for (const BezierShape& shape : path) {
-        BezierShape left = shape;
-        BezierShape right = shape;
+    for (const TestShape& shape : path) {
+        TestShape left = shape;
+        TestShape right = shape;
         const auto n = static_cast<unsigned>(shape.degree);
         for (const unsigned k : splinefeed::indices(shape.axes)) {
             PerDegree<double> b = shape.offset[k];
@@ -216,7 +216,7 @@ TEST_CASE("the machine stops where the plan stops") {
 
 TEST_CASE("the machine stops in a cusp") {
     const MachineSettings machine = machine_of(2, 1000.0, 1000.0, 1000.0);
-    BezierShape cusp;
+    TestShape cusp;
     double by_y = 0.0; // what y needs to get there, and back, from rest to rest
     SECTION("in the middle, a node of the grid") {
         cusp = cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0);

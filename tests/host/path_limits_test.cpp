@@ -25,7 +25,7 @@ CurveSegment<double> parabola(double middle, double y) {
 
 TEST_CASE("What counts is how far the curve goes, not its control points") {
     MachineDescription machine = default_machine();
-    machine.travel[0] = Travel{-10.0, 50.0};
+    machine.travel[0] = host::Travel{-10.0, 50.0};
     const PathLimits limits(machine);
     CHECK_FALSE(limits.violation(parabola(20.0, 0.0)));
     CHECK_FALSE(limits.violation(parabola(99.999, 0.0)));
@@ -40,7 +40,7 @@ TEST_CASE("What counts is how far the curve goes, not its control points") {
 
 TEST_CASE("A box is within with its margin, or not") {
     MachineDescription machine = default_machine();
-    machine.travel[0] = Travel{-10.0, 50.0};
+    machine.travel[0] = host::Travel{-10.0, 50.0};
     const PathLimits limits(machine);
     CHECK(limits.contain({-10.0, -900.0, 0.0}, {50.0, 900.0, 0.0}, 0.0));
     CHECK(limits.contain({-9.9, 0.0, 0.0}, {49.9, 0.0, 0.0}, 0.1));

@@ -24,7 +24,7 @@ struct Teed {
         arguments.input = folder.file("p.csv");
         arguments.curve.method = "polyline";
         std::ofstream(arguments.input) << rows;
-        machine.travel[0] = Travel{-10.0, 50.0};
+        machine.travel[0] = host::Travel{-10.0, 50.0};
     }
     /// The waypoints of the segments that were passed on, until there is none any more.
     std::vector<std::uint32_t> passed(const PathObservers& observers) {

@@ -142,7 +142,7 @@ TEMPLATE_TEST_CASE("cusps inside of a segment keep every limit", "[stream]", dou
             const Real slack = std::same_as<TestType, Fixed>
                                    ? 64.0L * 0x1p-32L / (reached * reached) + 8.0L * 0x1p-33L / (reached * segment_s)
                                    : 0.0L;
-            for (const BezierShape& shape :
+            for (const TestShape& shape :
                  {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0),
                   cubic_shape(1.0, 0.0, 1.0, 1e-6, 0.0, 0.0), cubic_shape(0.0, 0.0, 0.0, 0.0, 1.0, 0.0),
                   cubic_shape(1e-3, 1e-3, 1e-5, 1e-3, 1e-3, 0.0), cubic_shape(1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0)}) {

@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE("totals are the targets in rounded counts", "[stream]", doubl
         PerAxis<double> end{};
         for (unsigned k = 0; k < 3; ++k) {
             start[k] = end[k] = random.between(-1000.0, 1000.0);
-            for (const BezierShape& shape : path) {
+            for (const TestShape& shape : path) {
                 end[k] += shape.offset[k][static_cast<unsigned>(shape.degree)];
             }
         }

@@ -273,7 +273,7 @@ TEMPLATE_TEST_CASE("after an abort a new program starts where the machine stands
         require_limits(second, made.machine, slack<S>);
         for (unsigned k = 0; k < axes; ++k) {
             double end = start[k];
-            for (const BezierShape& shape : path) {
+            for (const TestShape& shape : path) {
                 end += shape.offset[k][static_cast<unsigned>(shape.degree)];
             }
             CHECK(std::fabs(static_cast<Real>(all.back().end[k]) / units_per_mm(made.machine.axis[k]) - real(end)) <

@@ -24,7 +24,7 @@ constexpr Real real(double x) {
 }
 
 /// Offsets of the Bezier points of one segment from its start, in mm: offset[axis][i], offset[axis][0] = 0.
-struct BezierShape {
+struct TestShape {
     int axes = 3;
     int degree = 3;
     PerAxis<PerDegree<double>> offset{};
@@ -33,7 +33,7 @@ struct BezierShape {
     bool stop_at_end = false;
 };
 
-using BezierPath = std::vector<BezierShape>;
+using BezierPath = std::vector<TestShape>;
 
 class Random {
 public:
@@ -77,7 +77,7 @@ std::vector<CurveSegment<S>> segments_of(const BezierPath& path, const PerAxis<d
     for (const unsigned k : indices(max_axes)) {
         here[k] = position_from_mm(start[k]);
     }
-    for (const BezierShape& shape : path) {
+    for (const TestShape& shape : path) {
         CurveSegment<S> segment;
         segment.axes = shape.axes;
         segment.degree = shape.degree;
@@ -228,8 +228,8 @@ inline const Quadrature& quadrature() {
 }
 
 /// A segment that wanders: each Bezier point a random step from the last. `ratio` > 1: step lengths differ by up to it.
-inline BezierShape random_shape(Random& random, int axes, int degree, double size_mm, double ratio = 1.0) {
-    BezierShape shape;
+inline TestShape random_shape(Random& random, int axes, int degree, double size_mm, double ratio = 1.0) {
+    TestShape shape;
     shape.axes = axes;
     shape.degree = degree;
     for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
@@ -243,8 +243,8 @@ inline BezierShape random_shape(Random& random, int axes, int degree, double siz
 }
 
 /// A straight line of any degree along a direction, evenly parametrised.
-inline BezierShape line_shape(int axes, int degree, const PerAxis<double>& to) {
-    BezierShape shape;
+inline TestShape line_shape(int axes, int degree, const PerAxis<double>& to) {
+    TestShape shape;
     shape.axes = axes;
     shape.degree = degree;
     for (const unsigned k : indices(axes)) {
@@ -256,8 +256,8 @@ inline BezierShape line_shape(int axes, int degree, const PerAxis<double>& to) {
 }
 
 /// A plane cubic through given Bezier points (from the origin).
-inline BezierShape cubic_shape(double x1, double y1, double x2, double y2, double x3, double y3) {
-    BezierShape shape;
+inline TestShape cubic_shape(double x1, double y1, double x2, double y2, double x3, double y3) {
+    TestShape shape;
     shape.axes = 2;
     shape.offset[0] = {0.0, x1, x2, x3};
     shape.offset[1] = {0.0, y1, y2, y3};
@@ -265,7 +265,7 @@ inline BezierShape cubic_shape(double x1, double y1, double x2, double y2, doubl
 }
 
 /// Moves the first inner Bezier points so that the segment continues `before` smoothly (C1 up to a factor).
-inline void join_smoothly(const BezierShape& before, BezierShape& after) {
+inline void join_smoothly(const TestShape& before, TestShape& after) {
     const auto m = static_cast<unsigned>(before.degree);
     Real in = 0.0L;
     Real out = 0.0L;

@@ -160,7 +160,7 @@ private:
 inline BezierPath random_path(Random& random, int axes, int segments, double size_mm, double corners, double feeds) {
     BezierPath path;
     for (int i = 0; i < segments; ++i) {
-        BezierShape next = random_shape(random, axes, random.integer(3, 5), size_mm * random.decades(0.2, 5.0));
+        TestShape next = random_shape(random, axes, random.integer(3, 5), size_mm * random.decades(0.2, 5.0));
         if (i > 0 && !random.chance(corners)) {
             join_smoothly(path.back(), next);
         }
