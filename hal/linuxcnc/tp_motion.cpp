@@ -197,7 +197,7 @@ const char* TpMotion::begin_path() noexcept {
     base_ = floor_ = pushed_;
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_abort_ = waits_ = has_now_ = unfinished_ = false;
+    sent_abort_ = waits_ = has_now_ = unfinished_ = closed_ = false;
     ratio_ = rapids_ = PacedValue(1.0);
     most_ = PacedValue(no_limit_mm_s);
     return nullptr;
@@ -262,6 +262,7 @@ bool TpMotion::push_one(bool release) noexcept {
         return false;
     }
     waits_ = false;
+    closed_ = next.element.stop_at_end;
     ++pushed_;
     return true;
 }
@@ -274,9 +275,11 @@ bool TpMotion::push_moves() noexcept {
     return n > 0;
 }
 
-// No move came for a while: the path ends with the one that was kept.
+// No move came for a while: the path ends with the one that was kept. A plan with a jerk limit needs the time of a full
+// ring to be made; the other one waits for moves as long as there are segments.
 bool TpMotion::released() noexcept {
-    return idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
+    return (limits_.jerk_limited || ring_count_ < 2) &&
+           idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
@@ -286,7 +289,7 @@ void TpMotion::plan() noexcept {
     const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
     ahead_ = static_cast<unsigned>(move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead);
     static_cast<void>(push_moves());
-    UnderrunPolicy policy = UnderrunPolicy::wait;
+    bool drains = false;
     unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
@@ -299,11 +302,12 @@ void TpMotion::plan() noexcept {
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
+        const UnderrunPolicy policy = drains || closed_ ? UnderrunPolicy::drain : UnderrunPolicy::wait;
         const Pull pull = trajectory_.next(out, urgent ? UnderrunPolicy::urgent : policy, urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
             figures_.urgent += urgent ? 1U : 0U;
-            policy = UnderrunPolicy::wait;
+            drains = false;
         } else if (pull == Pull::busy) {
             ++figures_.busy;
             if (over) { // it has no plan to go on by, so it stands
@@ -315,16 +319,11 @@ void TpMotion::plan() noexcept {
                 fail(describe(path.error()));
             }
             return;
-        } else if (!push_moves()) {
-            if (ring_count_ > 1) {
-                return; // there is time for moves to come
+        } else if (!push_moves() && !released()) {
+            if (ring_count_ > 1 || policy != UnderrunPolicy::wait || over) {
+                return; // or there is time for moves to come
             }
-            if (!released()) {
-                if (policy != UnderrunPolicy::wait || over) {
-                    return;
-                }
-                policy = UnderrunPolicy::drain;
-            }
+            drains = true;
         }
     }
     refills_ = false;

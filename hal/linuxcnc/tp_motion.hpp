@@ -118,6 +118,7 @@ private:
     bool planning_ = false; // a path is begun
     bool waits_ = false;    // at standstill before move pushed_
     bool may_begin_ = false;
+    bool closed_ = false; // the path ends at a stop, so nothing can change what is planned to there
     bool has_now_ = false;
     bool refills_ = false;    // the ring, by the old plan
     bool unfinished_ = false; // the share of the period was not enough

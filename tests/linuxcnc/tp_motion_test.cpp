@@ -160,6 +160,27 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
     CHECK(control.use() <= 1.0001);
 }
 
+TEST_CASE("the end of what is queued is planned before the motion gets there", "[linuxcnc]") {
+    double seconds[2] = {};
+    for (const bool at_once : {false, true}) { // else planning has ten looks at the clock a period
+        Control control(machine_of(3, 0.001, 30'000.0));
+        look_ns = at_once ? 0 : 10'000;
+        double x = 0.0;
+        double y = 0.0;
+        for (int i = 1; i <= 20; ++i) {
+            x += 6.0 * std::cos(0.7 * i);
+            y += 6.0 * std::sin(0.7 * i);
+            REQUIRE(control.add(line_to(x, y, 80.0)) == 0);
+        }
+        control.until_over();
+        look_ns = 1'000;
+        seconds[at_once ? 1 : 0] = 0.001 * static_cast<double>(control.places.size());
+        CHECK(control.figures().urgent == 0);
+        CHECK(control.use() <= 1.0001);
+    }
+    CHECK(seconds[0] < seconds[1] + 0.06); // the first plan is made at standstill
+}
+
 TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {
     for (const double mm_per_unit : {1.0, 25.4}) {
         tpc_machine machine = machine_of(3, 0.001, 0.0);
