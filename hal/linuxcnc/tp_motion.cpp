@@ -275,10 +275,10 @@ bool TpMotion::push_moves() noexcept {
     return n > 0;
 }
 
-// No move came for a while: the path ends with the one that was kept. A plan with a jerk limit needs the time of a full
-// ring to be made; the other one waits for moves as long as there are segments.
+// No move came for a while: the path ends with the one that was kept. A plan with a jerk limit takes periods to be
+// made: half of the ring. The other one waits for moves as long as there are segments.
 bool TpMotion::released() noexcept {
-    return (limits_.jerk_limited || ring_count_ < 2) &&
+    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 2U) &&
            idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
