@@ -152,6 +152,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
     if (!(*way > 0.0)) {
         return -1;
     }
+    out.length_mm = *way / chord_units_per_mm;
     out.stands_before = from.stands_before != 0;
     out.probes = from.probes != 0;
     end_ = out.to;
@@ -282,6 +283,26 @@ bool TpMotion::released() noexcept {
            idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
+// A path begins once its first move may be left as fast as it can be: what is known behind it is long enough to brake.
+// With less the plan would stop at the end of that move, and a part of it that is committed stays as it is.
+bool TpMotion::knows_enough() noexcept {
+    const QueuedMove& first = move(base_);
+    double acceleration = machine_.acceleration[0] * scale(0);
+    double fastest_sq = 0.0;
+    for (const unsigned k : indices(machine_.axes)) {
+        const double velocity = machine_.velocity[k] * scale(k);
+        acceleration = smaller(acceleration, machine_.acceleration[k] * scale(k));
+        fastest_sq += velocity * velocity;
+    }
+    const double feed = first.element.feed_mm_s;
+    const double speed_sq = feed == rapid_feed<double> ? fastest_sq : smaller(feed * feed, fastest_sq);
+    double needed_mm = smaller(first.length_mm, speed_sq / (2.0 * acceleration));
+    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - n) > 0; ++n) {
+        needed_mm -= move(n).length_mm;
+    }
+    return needed_mm <= 0.0 || !path_->has_room();
+}
+
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
 // ring: until that is full, the motion goes on by the old plan.
 void TpMotion::plan() noexcept {
@@ -322,6 +343,9 @@ void TpMotion::plan() noexcept {
         } else if (!push_moves() && !released()) {
             if (ring_count_ > 1 || policy != UnderrunPolicy::wait || over) {
                 return; // or there is time for moves to come
+            }
+            if (!has_now_ && !limits_.jerk_limited && !knows_enough()) {
+                return;
             }
             drains = true;
         }

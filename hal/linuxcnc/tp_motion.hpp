@@ -33,6 +33,7 @@ struct QueuedMove {
     Mm to{};
     Mm in{}; ///< unit directions at its ends
     Mm out{};
+    double length_mm = 0.0;
     bool stands_before = false;
     bool probes = false;
 };
@@ -66,6 +67,7 @@ private:
     bool push_one(bool release) noexcept;
     bool push_moves() noexcept;
     [[nodiscard]] bool released() noexcept;
+    [[nodiscard]] bool knows_enough() noexcept;
     [[nodiscard]] bool rests() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
     [[nodiscard]] bool at_known_end() noexcept;
