@@ -4,16 +4,17 @@
 
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
-      [--tool build/tool/bin/splinefeed] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
+      [--tool build/tool/bin/splinefeed] [--stops] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
 its part of a period took, in the mean and at most. --mode replaces the G64 and G61 words of the program. --steer holds, steps, changes
 overrides and the velocity limit at random times, and ends a third of the runs with an abort and moves by hand. --starve: in so many of
-a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --hal: more lines for HAL. --set: a line of the INI
-file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without output 0. --indexer: A is a locking
-rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not while it is locked. --check fails where a
-limit is exceeded by 1e-4, an end is missed, or a period had no motion.
+a hundred periods planning gets no time. --judge and --canon measure the distance from the path. --stops, with --tool, prints the time
+without motion, too, and what the tool takes with a stop where the machine stood: what is left is lost by the planner. --hal: more lines for
+HAL. --set: a line of the INI file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without
+output 0. --indexer: A is a locking rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not
+while it is locked. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion.
 """
 import argparse
 import importlib.util
@@ -265,6 +266,28 @@ def path_error(options, text, samples, axes, period_us, folder):
     return load(options.judge).judge(elements, times, samples[:, :n], axes.lower(), *limits)
 
 
+def standing(samples, axes, period_us):
+    """Time without motion between the first and the last motion, and the lines that begin behind it."""
+    import numpy
+
+    moves = numpy.abs(numpy.diff(samples[:, : len(axes)], axis=0)).max(axis=1) > 1e-9
+    moved = numpy.flatnonzero(moves)
+    if len(moved) == 0:
+        return 0.0, []
+    within = moves[moved[0] : moved[-1] + 1]
+    begins = numpy.minimum(numpy.flatnonzero(~within[:-1] & within[1:]) + moved[0] + 5, len(samples) - 1)  # the line is told later
+    lines = samples[begins, len(axes) + OTHERS.index("program-line")].astype(int)
+    return float((~within).sum()) * period_us * 1e-6, sorted(set(lines.tolist()))
+
+
+def with_stops(text, lines):
+    """The program with a stop before each of the lines, which count from 1."""
+    rows = text.split("\n")
+    for line in reversed([n for n in lines if 1 < n <= len(rows)]):
+        rows.insert(line - 1, "G4 P0")
+    return "\n".join(rows)
+
+
 def tool_time(options, text, axes, folder):
     programmed = re.search(r"G64\s*P([\d.]+)", text, re.I)
     tolerance = float(programmed[1]) if programmed else 0.01
@@ -307,6 +330,7 @@ def main():
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--inch", action="store_true")
+    parser.add_argument("--stops", action="store_true")
     parser.add_argument("--indexer", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
@@ -339,7 +363,13 @@ def main():
                     with tempfile.TemporaryDirectory() as name:
                         path_um = 1e3 * path_error(options, text, result["samples"], axes, options.period, pathlib.Path(name))["path_error_mm"]
                 tell = [figures.get("splinefeed-tp." + n, 0) for n in ("mean-us", "max-us", "urgent", "late")]
-                row += [f"{used[0]:.3f}", f"{tool_s:.3f}", f"{path_um:.1f}", *(f"{u:.5f}" for u in used[1:]), f"{tell[0]:.1f}", f"{tell[1]:.0f}",
+                took, of_tool = f"{used[0]:.3f}", f"{tool_s:.3f}"
+                if options.stops:
+                    stood, lines = standing(result["samples"], axes, options.period)
+                    with tempfile.TemporaryDirectory() as name:
+                        stopping_s = tool_time(options, with_stops(text, lines), axes, pathlib.Path(name))
+                    took, of_tool = f"{took}, {stood:.3f} without motion", f"{of_tool}, {stopping_s:.3f} with {len(lines)} stops"
+                row += [took, of_tool, f"{path_um:.1f}", *(f"{u:.5f}" for u in used[1:]), f"{tell[0]:.1f}", f"{tell[1]:.0f}",
                         *map(str, tell[2:]), controller_us(result["samples"], len(axes))]
                 if not any(what == "abort" for _, what, _ in actions):
                     end = ends.setdefault(program, result["position"])

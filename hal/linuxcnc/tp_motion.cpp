@@ -152,6 +152,7 @@ int TpMotion::add(const tpc_move& from) noexcept {
     if (!(*way > 0.0)) {
         return -1;
     }
+    out.length_mm = *way / chord_units_per_mm;
     out.stands_before = from.stands_before != 0;
     out.probes = from.probes != 0;
     end_ = out.to;
@@ -197,7 +198,7 @@ const char* TpMotion::begin_path() noexcept {
     base_ = floor_ = pushed_;
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_abort_ = waits_ = has_now_ = unfinished_ = false;
+    sent_abort_ = waits_ = has_now_ = unfinished_ = closed_ = false;
     ratio_ = rapids_ = PacedValue(1.0);
     most_ = PacedValue(no_limit_mm_s);
     return nullptr;
@@ -262,6 +263,7 @@ bool TpMotion::push_one(bool release) noexcept {
         return false;
     }
     waits_ = false;
+    closed_ = next.element.stop_at_end;
     ++pushed_;
     return true;
 }
@@ -274,9 +276,31 @@ bool TpMotion::push_moves() noexcept {
     return n > 0;
 }
 
-// No move came for a while: the path ends with the one that was kept.
+// No move came for a while: the path ends with the one that was kept. A plan with a jerk limit takes periods to be
+// made: half of the ring. The other one waits for moves as long as there are segments.
 bool TpMotion::released() noexcept {
-    return idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
+    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 2U) &&
+           idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
+}
+
+// A path begins once its first move may be left as fast as it can be: what is known behind it is long enough to brake.
+// With less the plan would stop at the end of that move, and a part of it that is committed stays as it is.
+bool TpMotion::knows_enough() noexcept {
+    const QueuedMove& first = move(base_);
+    double acceleration = machine_.acceleration[0] * scale(0);
+    double fastest_sq = 0.0;
+    for (const unsigned k : indices(machine_.axes)) {
+        const double velocity = machine_.velocity[k] * scale(k);
+        acceleration = smaller(acceleration, machine_.acceleration[k] * scale(k));
+        fastest_sq += velocity * velocity;
+    }
+    const double feed = first.element.feed_mm_s;
+    const double speed_sq = feed == rapid_feed<double> ? fastest_sq : smaller(feed * feed, fastest_sq);
+    double needed_mm = smaller(first.length_mm, speed_sq / (2.0 * acceleration));
+    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - n) > 0; ++n) {
+        needed_mm -= move(n).length_mm;
+    }
+    return needed_mm <= 0.0 || !path_->has_room();
 }
 
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
@@ -286,7 +310,7 @@ void TpMotion::plan() noexcept {
     const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
     ahead_ = static_cast<unsigned>(move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead);
     static_cast<void>(push_moves());
-    UnderrunPolicy policy = UnderrunPolicy::wait;
+    bool drains = false;
     unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
@@ -299,11 +323,12 @@ void TpMotion::plan() noexcept {
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
+        const UnderrunPolicy policy = drains || closed_ ? UnderrunPolicy::drain : UnderrunPolicy::wait;
         const Pull pull = trajectory_.next(out, urgent ? UnderrunPolicy::urgent : policy, urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
             figures_.urgent += urgent ? 1U : 0U;
-            policy = UnderrunPolicy::wait;
+            drains = false;
         } else if (pull == Pull::busy) {
             ++figures_.busy;
             if (over) { // it has no plan to go on by, so it stands
@@ -315,16 +340,14 @@ void TpMotion::plan() noexcept {
                 fail(describe(path.error()));
             }
             return;
-        } else if (!push_moves()) {
-            if (ring_count_ > 1) {
-                return; // there is time for moves to come
+        } else if (!push_moves() && !released()) {
+            if (ring_count_ > 1 || policy != UnderrunPolicy::wait || over) {
+                return; // or there is time for moves to come
             }
-            if (!released()) {
-                if (policy != UnderrunPolicy::wait || over) {
-                    return;
-                }
-                policy = UnderrunPolicy::drain;
+            if (!has_now_ && !limits_.jerk_limited && !knows_enough()) {
+                return;
             }
+            drains = true;
         }
     }
     refills_ = false;

@@ -33,6 +33,7 @@ struct QueuedMove {
     Mm to{};
     Mm in{}; ///< unit directions at its ends
     Mm out{};
+    double length_mm = 0.0;
     bool stands_before = false;
     bool probes = false;
 };
@@ -66,6 +67,7 @@ private:
     bool push_one(bool release) noexcept;
     bool push_moves() noexcept;
     [[nodiscard]] bool released() noexcept;
+    [[nodiscard]] bool knows_enough() noexcept;
     [[nodiscard]] bool rests() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
     [[nodiscard]] bool at_known_end() noexcept;
@@ -118,6 +120,7 @@ private:
     bool planning_ = false; // a path is begun
     bool waits_ = false;    // at standstill before move pushed_
     bool may_begin_ = false;
+    bool closed_ = false; // the path ends at a stop, so nothing can change what is planned to there
     bool has_now_ = false;
     bool refills_ = false;    // the ring, by the old plan
     bool unfinished_ = false; // the share of the period was not enough

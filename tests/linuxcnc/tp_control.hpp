@@ -15,11 +15,12 @@ namespace linuxcnc_test {
 
 using namespace splinefeed::linuxcnc;
 
-/// Each look at the clock takes a microsecond; in a starved period the second one a second.
+/// Each look at the clock takes a microsecond, or what a test says; in a starved period the second one a second.
 inline long long clock_ns = 0;
+inline long long look_ns = 1'000;
 inline bool starved = false;
 inline long long look() {
-    clock_ns += starved ? 1'000'000'000 : 1'000;
+    clock_ns += starved ? 1'000'000'000 : look_ns;
     return clock_ns;
 }
 

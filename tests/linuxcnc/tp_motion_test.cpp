@@ -160,6 +160,67 @@ TEST_CASE("a move that waits for the spindle begins when it may, after a stop", 
     CHECK(control.use() <= 1.0001);
 }
 
+TEST_CASE("the end of what is queued is planned before the motion gets there", "[linuxcnc]") {
+    double seconds[2] = {};
+    for (const bool at_once : {false, true}) { // else planning has ten looks at the clock a period
+        Control control(machine_of(3, 0.001, 30'000.0));
+        look_ns = at_once ? 0 : 10'000;
+        double x = 0.0;
+        double y = 0.0;
+        for (int i = 1; i <= 20; ++i) {
+            x += 6.0 * std::cos(0.7 * i);
+            y += 6.0 * std::sin(0.7 * i);
+            REQUIRE(control.add(line_to(x, y, 80.0)) == 0);
+        }
+        control.until_over();
+        look_ns = 1'000;
+        seconds[at_once ? 1 : 0] = 0.001 * static_cast<double>(control.places.size());
+        CHECK(control.figures().urgent == 0);
+        CHECK(control.use() <= 1.0001);
+    }
+    CHECK(seconds[0] < seconds[1] + 0.06); // the first plan is made at standstill
+}
+
+TEST_CASE("a path whose moves come one by one is as fast as one that is known", "[linuxcnc]") {
+    struct Step {
+        double x;
+        double y;
+        double sweep_rad; // 0: a line
+        double centre_x;
+        double centre_y;
+    };
+    // A long line, a short one and small arcs: with less than four of them the plan of the first would end at a stop.
+    constexpr Step steps[] = {{-2.830212, 0.148244, 0.0, 0.0, 0.0},
+                              {-3.004687, 0.116556, 0.0, 0.0, 0.0},
+                              {-3.009216, 0.117292, 0.460, -3.008516, 0.107292},
+                              {-3.012457, 0.194595, 0.921, -3.088826, 0.152674},
+                              {-2.880372, -0.114005, -4.855, -2.766921, 0.117121},
+                              {-4.132509, 0.462637, 0.0, 0.0, 0.0}};
+    for (const double jerk : {0.0, 30'000.0}) {
+        std::size_t periods[2] = {};
+        for (const bool at_once : {false, true}) {
+            Control control(machine_of(3, 0.001, jerk));
+            for (const Step& step : steps) {
+                tpc_move move = line_to(step.x, step.y, 43.8, 0.0452);
+                move.arc = step.sweep_rad != 0.0 ? 1 : 0;
+                move.sweep_rad = step.sweep_rad;
+                move.centre[0] = step.centre_x;
+                move.centre[1] = step.centre_y;
+                move.normal[2] = 1.0;
+                REQUIRE(control.add(move) == 0);
+                if (!at_once) {
+                    control.period();
+                }
+            }
+            control.until_over();
+            periods[at_once ? 1 : 0] = control.places.size();
+            CHECK(control.use() <= 1.0001);
+        }
+        CAPTURE(jerk);
+        CHECK(periods[0] <= periods[1] + 8); // they come within six
+    }
+}
+
 TEST_CASE("feed and tolerance are in the machine's units", "[linuxcnc]") {
     for (const double mm_per_unit : {1.0, 25.4}) {
         tpc_machine machine = machine_of(3, 0.001, 0.0);

@@ -150,22 +150,34 @@ TEST_CASE("a value is passed on at its pace, and 0 at once", "[linuxcnc]") {
     CHECK(value.value() == 0.0);
 }
 
-TEST_CASE("however long a feed is on and off in turn, its mean is followed", "[linuxcnc]") {
+TEST_CASE("however long a feed is on and off in turn, or nearly off, its mean is followed", "[linuxcnc]") {
     for (const double jerk : {0.0, 30'000.0}) {
-        for (const int on : {1, 5, 12, 40}) { // ms
-            for (const int off : {1, 5, 12, 40}) {
-                Control control(machine_of(3, 0.001, jerk));
-                REQUIRE(control.add(line_to(200.0, 0.0, 50.0)) == 0);
-                for (int n = 0; n < 2000; ++n) {
-                    control.input.ratio = n % (on + off) < on ? 1.0 : 0.0;
-                    control.period();
+        for (const double low : {0.0, 0.05}) {
+            for (const int on : {1, 5, 12, 40}) { // ms
+                for (const int off : {1, 5, 12, 40}) {
+                    Control control(machine_of(3, 0.001, jerk));
+                    REQUIRE(control.add(line_to(200.0, 0.0, 50.0)) == 0);
+                    for (int n = 0; n < 2000; ++n) {
+                        control.input.ratio = n % (on + off) < on ? 1.0 : low;
+                        control.period();
+                    }
+                    CAPTURE(jerk, low, on, off);
+                    const double mean_mm = 100.0 * (on + low * off) / (on + off);
+                    CHECK(control.out.position[0] == Approx(mean_mm).margin(12.0)); // a start and a stop more
+                    CHECK(control.use() <= 1.0001);
                 }
-                CAPTURE(jerk, on, off);
-                const double mean_mm = 100.0 * on / (on + off);
-                CHECK(control.out.position[0] == Approx(mean_mm).margin(12.0)); // a start and a stop more
-                CHECK(control.use() <= 1.0001);
             }
         }
+    }
+}
+
+TEST_CASE("a feed that goes down by and by to a stop stops at once", "[linuxcnc]") {
+    for (const double half : {0.4, 0.05}) {
+        PacedValue value(1.0);
+        CHECK(value.take(half, 0.001, 0.004));
+        CHECK_FALSE(value.take(half, 0.001, 0.004));
+        CHECK(value.take(0.0, 0.001, 0.004));
+        CHECK(value.value() == 0.0);
     }
 }
 
