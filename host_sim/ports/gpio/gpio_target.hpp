@@ -78,12 +78,4 @@ private:
 [[nodiscard]] std::unique_ptr<GpioTarget>
 make_gpio_target(const GpioAddress& address, const MachineDescription& machine, const RunOptions& options);
 
-/// Number of lines that may be set per second if a call takes this long: half of the time may be spent in calls.
-[[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
-/// Number of edges per second that the machine's limits may require.
-[[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
-/// Settings from the thread section of the map.
-[[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
-                                                        const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
-
 } // namespace splinefeed::host
