@@ -12,18 +12,18 @@
 
 namespace splinefeed::host {
 
-// The drives say where they stand; what they do not know has been told.
+// The drives say where they stand; what they do not know has been told. Of those that cannot be asked it stays known.
 void ServedTarget::find_place() {
     std::vector<RunTarget::AxisPlace> places;
     try {
         places = target_->standing();
     } catch (const TargetError& error) {
-        fail(error.what());
+        fail_by(error.what());
         return;
     }
     phase_ = Phase::open;
     const std::lock_guard lock(mutex_);
-    known_.axes = 0;
+    known_.axes = target_->has_feedback() ? 0U : known_.axes;
     for (const RunTarget::AxisPlace& at : places) {
         known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
         known_.axes |= at.mm ? 1U << at.axis : 0U;
@@ -52,7 +52,7 @@ void ServedTarget::begin_first() {
         reopen();
         drop_motion();
     } else if (!why.empty()) {
-        fail(why);
+        fail_by(why);
     }
 }
 
@@ -70,16 +70,19 @@ std::string ServedTarget::make_ready(const FeedSegment& first) {
 }
 
 void ServedTarget::close() {
-    target_->port().close();
+    target_->disconnect();
     phase_ = Phase::closed;
 }
 
 void ServedTarget::switch_off() {
-    if (phase_ == Phase::ready) {
+    if (phase_ == Phase::ready || !target_->has_feedback()) {
         if (const std::string what = target_->switch_off(); !what.empty()) {
             fail(what);
             return;
         }
+    }
+    if (!target_->has_feedback()) {
+        static_cast<void>(look_where(true)); // motors that hold no axis
     }
     close();
 }
@@ -98,7 +101,7 @@ void ServedTarget::recover(bool resets) {
         return;
     }
     if (const std::string why = make_ready(standing()); !why.empty()) {
-        fail(why);
+        fail_by(why);
     }
 }
 
@@ -111,10 +114,13 @@ void ServedTarget::renew_outputs() {
 }
 
 void ServedTarget::reopen() {
+    if (!target_->has_feedback()) {
+        static_cast<void>(look_where(true)); // what was lost meanwhile stays so
+    }
     close();
     target_->set_ready(options_);
     if (const hal::PortFailure failure = target_->port().open()) {
-        fail(target_->sentence(failure));
+        fail_by(target_->sentence(failure));
     } else {
         find_place();
     }
@@ -132,7 +138,11 @@ void ServedTarget::find_references(std::uint32_t axes) {
     FeedSegment found = standing();
     if (phase_ == Phase::open && !gives_up()) {
         options_.home = true;
-        options_.home_axes = search;
+        options_.home_axes = search != 0 ? search : axes; // it says why there is none
+        {
+            const std::lock_guard lock(mutex_);
+            known_.axes &= ~search;
+        }
         for (const unsigned k : indices(machine_->settings.axes)) {
             found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
         }
@@ -143,6 +153,10 @@ void ServedTarget::find_references(std::uint32_t axes) {
     const bool homed = phase_ == Phase::ready;
     if (homed) {
         take_place(found);
+        const std::lock_guard lock(mutex_);
+        for (const RunTarget::AxisPlace& at : target_->references()) {
+            known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
+        }
     } else if (phase_ == Phase::open) {
         reopen(); // where it stands now
     }
