@@ -97,7 +97,8 @@ void ServedTarget::recover(bool resets) {
     }
     options_.reset = resets;
     reopen();
-    if (phase_ != Phase::open || !resets || known_axes() != all_axes()) {
+    // Drives that were on and cannot be asked still are; those that an e-stop has switched off wait for a motion.
+    if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !target_->has_feedback()) {
         return;
     }
     if (const std::string why = make_ready(standing()); !why.empty()) {

@@ -205,8 +205,11 @@ void GpioTarget::hold(StopCause cause, const std::string& why) {
 
 void GpioTarget::hold_by(std::size_t input) {
     const bool limit = map_->inputs[input].role == InputRole::limit;
+    const char* const what = !options_.serves ? "held on the path"
+                             : limit          ? "reset, unlock by $X, and jog away from it"
+                                              : "see what the drive shows, and reset";
     hold(limit ? StopCause::limit_switch : StopCause::drive_fault,
-         fmt::format("the {} acts: held on the path", inputs_.name(input)));
+         fmt::format("the {} acts: {}", inputs_.name(input), what));
 }
 
 void GpioTarget::forget_stop() noexcept {

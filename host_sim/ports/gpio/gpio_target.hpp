@@ -51,6 +51,7 @@ private:
 
     [[nodiscard]] hal::PortFailure open() override;
     [[nodiscard]] hal::PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] hal::PortFailure renew(const FeedSegment& first) override;
     [[nodiscard]] int room() const noexcept override { return port_.room(); }
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override;

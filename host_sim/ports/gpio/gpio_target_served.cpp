@@ -39,24 +39,26 @@ hal::PortFailure GpioTarget::open() {
     return {};
 }
 
+hal::PortFailure GpioTarget::renew(const FeedSegment& first) {
+    options_.home = options_.reset = false;
+    return prepare(first);
+}
+
 RunTarget::Stop GpioTarget::stopped_by() {
     const bool pressed = inputs_.pressed().has_value();
     if (port_.was_disabled() || !port_.position_known()) {
         const bool e_stop = pressed || (port_.was_disabled() && inputs_.trouble().empty() &&
                                         stop_.report(0).request != hal::StopRequest::disable);
-        return {e_stop ? StopCause::emergency_stop : StopCause::drive_fault, fault()};
+        return {e_stop ? StopCause::emergency_stop : StopCause::drive_fault,
+                fault() + (e_stop ? "; release it, and reset" : "")};
     }
     if (pressed) {
         return {StopCause::emergency_stop, inputs_.in_the_way(false)};
     }
-    if (cause_ != StopCause::none) {
-        return {cause_, holds_};
-    }
     if (const auto input = stops_.acting()) {
-        return {map_->inputs[*input].role == InputRole::limit ? StopCause::limit_switch : StopCause::drive_fault,
-                fmt::format("the {} acts", inputs_.name(*input))};
+        hold_by(*input);
     }
-    return {};
+    return {cause_, holds_};
 }
 
 std::uint32_t GpioTarget::homes_with(std::uint32_t axes) const {
