@@ -117,7 +117,7 @@ TEST_CASE("stops by wire: on the path, no step after the standstill, and none is
     Operated machine;
     RandomPath random(2211);
     std::array<double, ways.size()> longest{};
-    for (int n = 0; n < rounds(static_cast<int>(3 * ways.size()), 300); ++n) {
+    for (int n = 0; n < rounds(static_cast<int>(4 * ways.size()), 300); ++n) {
         const std::size_t w = static_cast<std::size_t>(n) % ways.size();
         const Way& way = ways[w];
         CAPTURE(n, way.name);
