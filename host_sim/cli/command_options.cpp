@@ -116,8 +116,8 @@ void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector
         ->allow_extra_args(false);
 }
 
-void add_target(CLI::App& app, std::string& target, bool served = false) {
-    app.add_option("--target", target, "sim: the simulated machine in this process (default); " + target_help(served));
+void add_target(CLI::App& app, std::string& target) {
+    app.add_option("--target", target, "sim: the simulated machine in this process (default); " + target_help());
 }
 
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
@@ -233,7 +233,7 @@ void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
 
 void add_serve_options(CLI::App& app, ServeArguments& arguments, Typed& typed) {
     add_machine(app, typed.machine, arguments.settings, "");
-    add_target(app, arguments.target, true);
+    add_target(app, arguments.target);
     app.add_option("--tcp", arguments.tcp, "127.0.0.1:PORT: where senders connect; port 0: a free one");
     app.add_option("--pty", arguments.pty, "FILE: a link to a pseudo terminal, a serial port for senders");
     app.add_option("--state", arguments.state,

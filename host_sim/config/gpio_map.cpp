@@ -247,7 +247,9 @@ private:
 
 LineMap parse_gpio_map(std::string_view text, const std::string& file, const MachineDescription& machine,
                        const std::string& chip) {
-    return Reader(file, machine, chip).map(parse_toml(text, file));
+    LineMap map = Reader(file, machine, chip).map(parse_toml(text, file));
+    map.file = file;
+    return map;
 }
 
 LineMap read_gpio_map(const std::string& file, const MachineDescription& machine, const std::string& chip) {

@@ -6,6 +6,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/output/summary.hpp"
+#include "host_sim/ports/switch_facts.hpp"
 
 #include "splinefeed/hal/motion_port.hpp"
 
@@ -38,12 +39,28 @@ struct RunOptions {
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
     bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;
+    bool serves = false; ///< many motions, as people ask for them: behind homing the axes stay where it ends
 };
 
 /// The interface that Supervision uses. From the first segment on, only its thread calls the functions that are not
 /// const.
 class RunTarget {
 public:
+    /// Where an axis of the machine stands, in machine coordinates.
+    struct AxisPlace {
+        unsigned axis = 0;
+        /// As its drive reports it or, if it does not answer, last did. Nothing: it is not known, since the axis has
+        /// moved without a reference, or lost it. [mm]
+        std::optional<double> mm;
+        /// false: the drive does not answer or may still move, so that the axis may be elsewhere by now.
+        bool online = true;
+
+        /// The place where the axis is known to stand now; nothing: there is none.
+        [[nodiscard]] std::optional<double> known() const noexcept { return online ? mm : std::nullopt; }
+
+        friend bool operator==(const AxisPlace&, const AxisPlace&) = default;
+    };
+
     RunTarget() = default;
     RunTarget(const RunTarget&) = delete;
     RunTarget& operator=(const RunTarget&) = delete;
@@ -70,10 +87,36 @@ public:
     [[nodiscard]] virtual std::string holds() const { return {}; }
     /// Whether this hold was the purpose of the run.
     [[nodiscard]] virtual bool achieved() const { return false; }
-    /// For a machine that is served. What prepare() does from now on, of home and reset.
+
+    // For a machine that is served:
+
+    /// What prepare() does from now on, of home and reset.
     virtual void set_ready(const RunOptions& /*options*/) {}
+    /// Comes before open(), which connects anew. Drives that cannot be asked where they stand stay on, and watched.
+    virtual void disconnect() { port().close(); }
+    /// Whether its drives can be asked where they stand. false: what was told is all that is known.
+    [[nodiscard]] virtual bool has_feedback() const noexcept { return true; }
+    /// What stops the machine now, whether it moves or not, and the sentence about it.
+    struct Stop {
+        StopCause cause = StopCause::none;
+        std::string why{};
+    };
+    [[nodiscard]] virtual Stop stopped_by() { return {}; }
     /// The axes that search together with these, by bits: a drive homes all of its own.
     [[nodiscard]] virtual std::uint32_t homes_with(std::uint32_t axes) const { return axes; }
+    /// Behind prepare() that has homed: where axes stand that have searched. One that it does not name stands at 0.
+    [[nodiscard]] virtual std::vector<AxisPlace> references() const { return {}; }
+    /// Of switches, what they are for, and which act now. Axes are bits.
+    [[nodiscard]] virtual SwitchFacts switch_facts() const { return {}; }
+    struct Switches {
+        std::uint32_t limits = 0;
+        bool probe = false;
+        bool e_stop = false;
+        std::optional<PerAxis<double>> touched_mm{}; ///< where the probe changed as watch_probe() asked
+    };
+    [[nodiscard]] virtual Switches switches() { return {}; }
+    /// From now on the next contact of the probe, or the loss of it, is noted with its place.
+    virtual void watch_probe(bool /*away*/) {}
     /// Whether halt() of the port stops the drives sooner than the plan could brake; else it asks for that: holds().
     [[nodiscard]] virtual bool halts() const noexcept { return false; }
     /// With less motion than this in the port it may slow down by itself, unless that is the end. [us]
@@ -92,18 +135,6 @@ public:
     /// that the machine file requires (drives_at_end). Returns one line with everything that was not confirmed.
     [[nodiscard]] virtual std::string finish() = 0;
 
-    /// Where an axis of the machine stands, in machine coordinates.
-    struct AxisPlace {
-        unsigned axis = 0;
-        /// As its drive reports it or, if it does not answer, last did. Nothing: it is not known, since the axis has
-        /// moved without a reference, or lost it. [mm]
-        std::optional<double> mm;
-        /// false: the drive does not answer or may still move, so that the axis may be elsewhere by now.
-        bool online = true;
-
-        /// The place where the axis is known to stand now; nothing: there is none.
-        [[nodiscard]] std::optional<double> known() const noexcept { return online ? mm : std::nullopt; }
-    };
     /// Of every axis that the target moves, after prepare(). Empty: no axis has moved, nor been told to; what was known
     /// of its place before is still true.
     [[nodiscard]] virtual std::vector<AxisPlace> places() const { return {}; }

@@ -36,26 +36,18 @@ std::string meant_target(const std::string& target) {
 
 } // namespace
 
-std::string target_help(bool served) {
+std::string target_help() {
     std::string text;
     for (const TargetKind* const kind : kinds) {
-        if (kind->serves || !served) {
-            text += text.empty() ? "" : "; ";
-            text += kind->help;
-        }
+        text += text.empty() ? "" : "; ";
+        text += kind->help;
     }
     return text;
 }
 
-const TargetKind& target_kind(const std::string& target, bool served) {
+const TargetKind& target_kind(const std::string& target) {
     std::vector<std::string_view> names{"sim"};
     for (const TargetKind* const kind : kinds) {
-        const bool offered = kind->serves || !served;
-        if (kind->is(target) && !offered) {
-            throw UsageError(fmt::format("--target {}: serve moves drives on Modbus, and no others so far; splinefeed "
-                                         "run moves these",
-                                         in_quotes(target)));
-        }
         if (kind->is(target)) {
             try {
                 kind->check(target);
@@ -64,9 +56,7 @@ const TargetKind& target_kind(const std::string& target, bool served) {
             }
             return *kind;
         }
-        if (offered) {
-            names.push_back(kind->names);
-        }
+        names.push_back(kind->names);
     }
     const std::string_view last = names.back();
     names.pop_back();

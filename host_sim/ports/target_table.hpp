@@ -16,7 +16,6 @@ namespace splinefeed::host {
 struct TargetKind {
     std::string_view names; ///< what a user may write, and the page that says more
     std::string_view help;  ///< what --help says
-    bool serves;            ///< many motions, one behind the other, by renew() of its port
     /// Whether a target is meant to be one of these.
     bool (*is)(const std::string& target);
     /// Throws AddressError if the address is wrong, and UsageError if this build does not support it.
@@ -29,12 +28,12 @@ struct TargetKind {
                          double seconds);
 };
 
-/// What --help says of all kinds. @param served  of those that serve
-[[nodiscard]] std::string target_help(bool served = false);
+/// What --help says of all kinds.
+[[nodiscard]] std::string target_help();
 
 /// The kind of a target whose address is right. Throws UsageError, with the option, if there is none.
-/// @pre not "sim"   @param served  as of target_help()
-[[nodiscard]] const TargetKind& target_kind(const std::string& target, bool served = false);
+/// @pre not "sim"
+[[nodiscard]] const TargetKind& target_kind(const std::string& target);
 
 /// Checks that --target can have this value: sim, or a target of some kind. Throws UsageError if not.
 void check_target(const std::string& target);

@@ -2,13 +2,10 @@
 #include "host_sim/run/target_feed.hpp"
 
 #include "splinefeed/base/units.hpp"
-#include "splinefeed/hal/rt/clock.hpp"
 
 #include <exception>
 
 namespace splinefeed::host {
-
-using hal::system_clock;
 
 namespace {
 
@@ -90,7 +87,7 @@ void TargetFeed::ask(int requests) {
     if (requests <= obeyed_) {
         return;
     }
-    obeyed_us_ = system_clock().now_us();
+    obeyed_us_ = clock_->now_us();
     obeyed_ = requests;
     if (requests > 1) {
         end_outputs();
@@ -161,7 +158,7 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
 
 // A stop that does not end.
 std::optional<MotionEnd> TargetFeed::insist() {
-    const std::uint64_t now_us = system_clock().now_us();
+    const std::uint64_t now_us = clock_->now_us();
     if (obeyed_ == 1 && now_us > obeyed_us_ + patience_.halt_us) {
         obeyed_ = 2;
         end_outputs();
@@ -187,7 +184,7 @@ std::optional<MotionEnd> TargetFeed::look(int requests) {
     }
     executed_.store(began_at_ + (state.executed - done_before_));
     if (record_ != nullptr) {
-        record_->looked(system_clock().now_us(), executed());
+        record_->looked(clock_->now_us(), executed());
     }
     std::optional<MotionEnd> end = end_of(state.phase, completed);
     end = end ? end : insist();

@@ -6,6 +6,7 @@
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/report/target_record.hpp"
 
+#include "splinefeed/hal/rt/clock.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 
 #include <array>
@@ -43,8 +44,10 @@ public:
     /// Target, outputs and record must outlive it. @param outputs, record  null: there are none
     explicit TargetFeed(RunTarget& target, ProgramOutputs* outputs = nullptr, TargetRecord* record = nullptr)
         : TargetFeed(target, outputs, record, Patience{}) {}
-    TargetFeed(RunTarget& target, ProgramOutputs* outputs, TargetRecord* record, const Patience& patience)
-        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record), patience_(patience) {}
+    TargetFeed(RunTarget& target, ProgramOutputs* outputs, TargetRecord* record, const Patience& patience,
+               hal::Clock& clock = hal::system_clock())
+        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record), patience_(patience),
+          clock_(&clock) {}
     TargetFeed(const TargetFeed&) = delete;
     TargetFeed& operator=(const TargetFeed&) = delete;
 
@@ -114,6 +117,7 @@ private:
     ProgramOutputs* outputs_;
     TargetRecord* record_;
     Patience patience_;
+    hal::Clock* clock_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // used by the planner only

@@ -20,24 +20,42 @@ namespace splinefeed::host {
 
 namespace {
 
+void tell_note(const std::string& note) {
+    if (!note.empty()) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
+}
+
 // Where an axis stands is said by the state file; without one all stand at 0, or at the end of travel beside it.
-PerAxis<double> places_of(const MachineState& state, const MachineDescription& machine) {
-    PerAxis<double> out{};
+ServedTarget::Settings places_of(const MachineState& state, const MachineDescription& machine) {
+    ServedTarget::Settings out;
     for (const unsigned k : indices(machine.settings.axes)) {
         const double nearest =
             machine.travel[k] ? std::clamp(0.0, machine.travel[k]->low, machine.travel[k]->high) : 0.0;
-        out[k] = state.position_mm[k].value_or(nearest);
+        out.told_mm[k] = state.position_mm[k].value_or(nearest);
+        out.told |= state.position_mm[k] || state.unknown_why.empty() ? 1U << k : 0U;
     }
     return out;
 }
 
+// Of drives that cannot be asked.
+std::string note_unknown(const MachineState& state, const MachineDescription& machine, const PerAxis<double>& told_mm) {
+    std::string text;
+    for (const unsigned k : indices(machine.settings.axes)) {
+        if (!state.position_mm[k] && state.unknown_why.empty()) {
+            text += fmt::format(" {}={:.4f}", machine.axis_name[k], told_mm[k]);
+        }
+    }
+    return text.empty() ? text
+                        : "nobody knows where the machine stands: it counts from" + text +
+                              " mm ($H finds references, and --state keeps places)";
+}
+
 /// Connects to it. The machine's limits become those that it carries.
-std::unique_ptr<ServedMachine> make_target(const std::string& target, RunMachine& machine,
-                                           const PerAxis<double>& told) {
-    std::unique_ptr<RunTarget> made =
-        target_kind(target, true).make(target, machine.machine, {.interrupted = &ServedTarget::gives_up});
-    const PlanFigures figures = fit_to_target(machine.machine, ScalarKind::fixed, *made, false);
-    return std::make_unique<ServedTarget>(std::move(made), machine.machine, figures.segment_ticks, told,
+std::unique_ptr<ServedMachine> make_target(std::unique_ptr<RunTarget> made, const std::string& target,
+                                           RunMachine& machine, ServedTarget::Settings settings) {
+    settings.segment_ticks = fit_to_target(machine.machine, ScalarKind::fixed, *made, false).segment_ticks;
+    return std::make_unique<ServedTarget>(std::move(made), machine.machine, settings,
                                           [&machine, target] { return make_outputs(machine.machine, target); });
 }
 
@@ -56,20 +74,23 @@ int run_serve(const ServeArguments& arguments) {
     SignalWatch signals([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     const MachineChoice choice{arguments.machine, arguments.settings};
     RunMachine machine(choice, *input_format("gcode"));
-    if (const std::string note = note_of(choice, machine.machine); !note.empty()) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
+    tell_note(note_of(choice, machine.machine));
     const MachineState begins = machine.state(arguments.state.value_or(""), "");
-    const PerAxis<double> told = places_of(begins, machine.machine);
+    const ServedTarget::Settings told = places_of(begins, machine.machine);
     std::unique_ptr<ServedMachine> tool;
+    SwitchFacts switches{.probe = true, .no_home = {}}; // the simulated machine's, which touches nothing
     if (arguments.target != "sim") {
-        tool = make_target(arguments.target, machine, told);
+        std::unique_ptr<RunTarget> made =
+            target_kind(arguments.target)
+                .make(arguments.target, machine.machine, {.interrupted = &ServedTarget::gives_up, .serves = true});
+        switches = made->switch_facts();
+        tell_note(made->has_feedback() ? std::string() : note_unknown(begins, machine.machine, told.told_mm));
+        tool = make_target(std::move(made), arguments.target, machine, told);
     }
-    ControllerSettings settings = serve_settings(machine);
-    settings.probes = arguments.target == "sim"; // so far drives have none
+    const ControllerSettings settings = serve_settings(machine, switches);
     ServedMotion motion(machine.machine, settings);
     if (tool == nullptr) {
-        tool = std::make_unique<SimulatedTool>(machine.machine, motion.segments_per_sample(), told,
+        tool = std::make_unique<SimulatedTool>(machine.machine, motion.segments_per_sample(), told.told_mm,
                                                begins.unknown_why.empty());
     }
     std::optional<StateKeeper> state;

@@ -24,7 +24,7 @@ constexpr std::string_view two_numbers(std::string_view version) {
 
 } // namespace
 
-ControllerSettings serve_settings(const RunMachine& machine_of_run) {
+ControllerSettings serve_settings(const RunMachine& machine_of_run, const SwitchFacts& switches) {
     const MachineDescription& machine = machine_of_run.machine;
     ControllerSettings out;
     out.machine = machine.settings;
@@ -46,11 +46,20 @@ ControllerSettings serve_settings(const RunMachine& machine_of_run) {
         if (const std::optional<Travel>& travel = machine.travel[k]) {
             out.travel[k] = {true, decimal_of(travel->low), decimal_of(travel->high)};
         }
-        out.wiring[k] = {machine.motors[k].invert_step, machine.inverted[k], false};
+        out.wiring[k] = {machine.motors[k].invert_step, machine.inverted[k], (switches.homes_low >> k & 1U) != 0};
     }
     out.version = two_numbers(SPLINEFEED_VERSION);
     out.name = machine.name;
-    out.homes = true;
+    constexpr double s_per_min = 60.0;
+    constexpr std::uint32_t us_per_ms = 1000;
+    out.homes = switches.homes != 0;
+    out.no_home = switches.no_home.empty() ? out.no_home : switches.no_home;
+    out.probes = switches.probe;
+    out.has_limits = switches.limits != 0;
+    out.debounce_ms = static_cast<std::int32_t>(switches.debounce_us / us_per_ms);
+    out.pull_off_mm = decimal_of(switches.pull_off_mm);
+    out.home_seek_mm_min = decimal_of(switches.seek_mm_s * s_per_min);
+    out.home_latch_mm_min = decimal_of(switches.latch_mm_s * s_per_min);
     if (machine.spindle) {
         out.max_rpm = decimal_of(machine.spindle->max_rpm);
         out.min_rpm = decimal_of(machine.spindle->min_rpm);

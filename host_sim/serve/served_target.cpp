@@ -29,13 +29,15 @@ ProgramAction action_of(const ProgramEvent& event) {
 std::atomic<bool> ServedTarget::gives_up_{false};
 
 ServedTarget::ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescription& machine,
-                           std::uint32_t segment_ticks, const PerAxis<double>& told_mm, MakeOutputs outputs)
+                           const Settings& settings, MakeOutputs outputs)
     : machine_(&machine), target_(std::move(target)), make_outputs_(std::move(outputs)), outputs_(make_outputs_()),
-      feed_(*target_, outputs_.get()), segment_ticks_(segment_ticks) {
+      clock_(settings.clock), feed_(*target_, outputs_.get(), nullptr, {}, *clock_),
+      segment_ticks_(settings.segment_ticks) {
     gives_up_.store(false);
-    known_.mm = told_mm;
+    known_.mm = settings.told_mm;
     find_place();
-    thread_ = std::thread([this] { work(); });
+    known_.axes |= target_->has_feedback() ? 0U : settings.told & all_axes();
+    thread_ = clock_->start([this] { work(); });
 }
 
 ServedTarget::~ServedTarget() {
@@ -48,8 +50,9 @@ std::string ServedTarget::finish() {
         leaves_.store(true);
         gives_up_.store(true);
     }
-    if (thread_.joinable()) {
-        thread_.join();
+    if (thread_) {
+        thread_->join();
+        thread_.reset();
     }
     return unconfirmed_;
 }
@@ -111,6 +114,12 @@ MachineReading ServedTarget::read() noexcept {
     out.known = known_.axes == all_axes();
     out.homing = known_.homing;
     out.alarm = known_.alarm;
+    out.inputs = known_.switches.limits | (known_.switches.probe ? InputBits::probe : 0U) |
+                 (known_.switches.e_stop ? InputBits::emergency_stop : 0U);
+    out.touched = known_.switches.touched_mm.has_value();
+    for (const unsigned k : indices(out.touched ? machine_->settings.axes : 0)) {
+        out.touched_at[k] = position_from_mm((*known_.switches.touched_mm)[k]);
+    }
     out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
     sentence_ = known_.sentence;
     out.alarm_sentence = sentence_;
@@ -125,6 +134,12 @@ void ServedTarget::obey(const ProgramEvent& event) noexcept {
 void ServedTarget::forget_input() noexcept {
     constexpr std::int32_t none = -1;
     feed_.order({.kind = EventKind::input_wait, .number = none, .text = {}}, false);
+}
+
+void ServedTarget::watch_probe(bool away) noexcept {
+    const std::lock_guard lock(mutex_);
+    orders_.probe = away;
+    known_.switches.touched_mm.reset();
 }
 
 void ServedTarget::home(std::uint32_t axes) noexcept {

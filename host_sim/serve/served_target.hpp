@@ -6,11 +6,12 @@
 #include "host_sim/run/target_feed.hpp"
 #include "host_sim/serve/served_machine.hpp"
 
+#include "splinefeed/hal/rt/clock.hpp"
+
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 namespace splinefeed::host {
 
@@ -25,12 +26,18 @@ class ServedTarget final : public ServedMachine {
 public:
     using MakeOutputs = std::function<std::unique_ptr<ProgramOutputs>()>;
 
+    struct Settings {
+        std::uint32_t segment_ticks = 0;          ///< of its plans
+        PerAxis<double> told_mm{};                ///< where axes stand that do not know it
+        std::uint32_t told = 0;                   ///< axes that stand there indeed, by bits, if they cannot be asked
+        hal::Clock* clock = &hal::system_clock(); ///< must outlive it
+    };
+
     /// Reads where the machine stands, and begins its thread. A drive in fault is an alarm.
-    /// @param machine  must outlive it   @param segment_ticks  of its plans
-    /// @param told_mm  where axes stand that do not know it
+    /// @param machine  must outlive it
     /// @param outputs  makes them; called again behind a reset that ended them
-    ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescription& machine, std::uint32_t segment_ticks,
-                 const PerAxis<double>& told_mm, MakeOutputs outputs);
+    ServedTarget(std::unique_ptr<RunTarget> target, const MachineDescription& machine, const Settings& settings,
+                 MakeOutputs outputs);
     ~ServedTarget() override;
 
     /// What searches for references poll: RunOptions::interrupted.
@@ -51,7 +58,7 @@ public:
         return machine_->lines.input(number) != nullptr;
     }
     void forget_input() noexcept override;
-    void watch_probe(bool /*away*/) noexcept override {}
+    void watch_probe(bool away) noexcept override;
     void home(std::uint32_t axes) noexcept override;
     bool halt() noexcept override;
     void quick_stop() noexcept override;
@@ -62,11 +69,12 @@ private:
     enum class Phase : std::uint8_t { closed, open, ready, failed };
     /// What the server's thread asks for; the other one does it, in this order.
     struct Orders {
-        int stops = 0;          ///< as TargetFeed::look
-        bool off = false;       ///< the drives
-        bool opens = false;     ///< what is closed or has failed
-        bool resets = false;    ///< faults of drives, too
-        std::uint32_t home = 0; ///< axes
+        int stops = 0;               ///< as TargetFeed::look
+        bool off = false;            ///< the drives
+        bool opens = false;          ///< what is closed or has failed
+        bool resets = false;         ///< faults of drives, too
+        std::uint32_t home = 0;      ///< axes
+        std::optional<bool> probe{}; ///< RunTarget::watch_probe()
 
         [[nodiscard]] bool any() const noexcept { return off || opens || home != 0; }
     };
@@ -78,10 +86,13 @@ private:
         Alarm alarm = Alarm::none;
         std::string sentence{};
         double speed_mm_s = 0.0;
+        RunTarget::Switches switches{};
     };
 
     void work() noexcept;
     void step();
+    void announce();
+    void look_at_switches();
     [[nodiscard]] Orders take_orders();
     void find_place();
     void begin_first();
@@ -90,6 +101,7 @@ private:
     void drop_motion();
     void finish_motion();
     void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
+    void fail_by(const std::string& sentence);
     bool look_where(bool at_once);
     void take_place(const FeedSegment& segment);
     [[nodiscard]] FeedSegment standing() const;
@@ -111,6 +123,7 @@ private:
     std::unique_ptr<RunTarget> target_;
     MakeOutputs make_outputs_;
     std::unique_ptr<ProgramOutputs> outputs_;
+    hal::Clock* clock_;
     TargetFeed feed_;
     std::uint32_t segment_ticks_;
     // Of the server's thread:
@@ -133,7 +146,7 @@ private:
     std::uint64_t looked_us_ = 0; // where it stands
     std::string unconfirmed_;     // at its end
     std::atomic<bool> leaves_{false};
-    std::thread thread_;
+    std::unique_ptr<hal::ClockThread> thread_;
 };
 
 } // namespace splinefeed::host

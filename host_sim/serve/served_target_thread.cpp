@@ -1,31 +1,37 @@
 // SPDX-License-Identifier: MIT
 //
-// What the thread of a ServedTarget does: motions of the port, and all that takes longer.
+// What the thread of a ServedTarget does: motions of the port.
 #include "host_sim/serve/served_target.hpp"
 
 #include "splinefeed/base/units.hpp"
-#include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
-
-using hal::system_clock;
 
 namespace {
 
 constexpr std::uint64_t poll_every_us = 1000;
 constexpr std::uint64_t look_every_us = 40'000; // where it stands
 
+Alarm alarm_of(StopCause cause) {
+    switch (cause) {
+    case StopCause::none: break;
+    case StopCause::drive_fault: return Alarm::drive_fault;
+    case StopCause::limit_switch: return Alarm::limit_switch;
+    case StopCause::emergency_stop: return Alarm::emergency_stop;
+    }
+    return Alarm::none;
+}
+
 } // namespace
 
 void ServedTarget::work() noexcept {
-    for (std::uint64_t next_us = system_clock().now_us(); !leaves_.load();
-         next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
-        system_clock().sleep_until_us(next_us);
+    for (std::uint64_t next_us = clock_->now_us(); !leaves_.load();
+         next_us = std::max(next_us + poll_every_us, clock_->now_us())) {
+        clock_->sleep_until_us(next_us);
         try {
             step();
         } catch (const std::exception& error) {
@@ -47,10 +53,10 @@ void ServedTarget::leave() {
     }
     const int signals = SignalWatch::interrupts();
     while (outputs_ != nullptr && outputs_->ends() && SignalWatch::interrupts() <= signals) {
-        system_clock().sleep_us(every_us);
+        clock_->sleep_us(every_us);
     }
     unconfirmed_ = outputs_ != nullptr ? outputs_->unended() : std::string();
-    if (phase_ == Phase::ready || phase_ == Phase::failed) {
+    if (phase_ == Phase::ready || phase_ == Phase::failed || !target_->has_feedback()) {
         const std::string drives = target_->finish();
         unconfirmed_ += drives.empty() || unconfirmed_.empty() ? drives : "; " + drives;
     }
@@ -60,7 +66,9 @@ void ServedTarget::leave() {
 ServedTarget::Orders ServedTarget::take_orders() {
     const std::lock_guard lock(mutex_);
     const bool moves = submitted_ != finished_;
-    orders_.stops = moves ? std::max(orders_.stops, std::min(SignalWatch::interrupts(), 2)) : 0;
+    const int signals = std::min(SignalWatch::interrupts(), 2);
+    const int asked = target_->halts() || signals > 1 ? signals : 0; // else the plan brakes, as at each reset
+    orders_.stops = moves ? std::max(orders_.stops, asked) : 0;
     Orders out = orders_;
     orders_ = {.stops = out.stops};
     busy_ = out.any();
@@ -70,6 +78,9 @@ ServedTarget::Orders ServedTarget::take_orders() {
 
 void ServedTarget::step() {
     const Orders orders = take_orders();
+    if (orders.probe) {
+        target_->watch_probe(*orders.probe);
+    }
     if (orders.off) {
         switch_off();
     }
@@ -84,10 +95,16 @@ void ServedTarget::step() {
             end_motion(*end);
         } else {
             static_cast<void>(look_where(false));
+            announce();
         }
+        look_at_switches();
         return;
     }
     feed_.tend_outputs();
+    if (phase_ != Phase::closed) {
+        announce();
+    }
+    look_at_switches();
     if (phase_ != Phase::failed && !feed_.trouble().empty()) {
         fail(feed_.trouble(), Alarm::spindle_speed);
     } else if (feed_.waits() && (phase_ == Phase::failed || orders.stops > 0)) {
@@ -97,61 +114,33 @@ void ServedTarget::step() {
     }
 }
 
-// The drives say where they stand; what they do not know has been told.
-void ServedTarget::find_place() {
-    std::vector<RunTarget::AxisPlace> places;
-    try {
-        places = target_->standing();
-    } catch (const TargetError& error) {
-        fail(error.what());
-        return;
-    }
-    phase_ = Phase::open;
-    const std::lock_guard lock(mutex_);
-    known_.axes = 0;
-    for (const RunTarget::AxisPlace& at : places) {
-        known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
-        known_.axes |= at.mm ? 1U << at.axis : 0U;
-    }
-}
-
-// Where the motion begins the machine has to stand: else a position would get another name.
-void ServedTarget::begin_first() {
-    if (phase_ == Phase::closed) {
-        reopen();
-    }
-    if (phase_ != Phase::open) {
-        return;
-    }
-    const FeedSegment first = feed_.front();
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        const double counts = static_cast<double>(first.start[k]) / static_cast<double>(units_per_count);
-        const double off = std::fabs(counts - known_.mm[k] * machine_->settings.axis[k].steps_per_mm);
-        if (off > standstill_window_counts(*machine_, k)) {
-            fail(fmt::format("axis {} stands elsewhere than where the motion begins: reset", machine_->axis_name[k]));
+// What stops the machine is an alarm at once: where its drives do not halt by themselves the plan brakes.
+void ServedTarget::announce() {
+    const RunTarget::Stop stop = target_->stopped_by();
+    const bool troubled = !feed_.trouble().empty() && !target_->halts();
+    const Alarm alarm = troubled ? Alarm::spindle_speed : alarm_of(stop.cause);
+    const std::string& why = troubled ? feed_.trouble() : stop.why;
+    bool moves = false;
+    {
+        const std::lock_guard lock(mutex_);
+        const bool worse = alarm == Alarm::emergency_stop && known_.alarm != alarm;
+        if (alarm == Alarm::none || orders_.opens || !(worse || known_.alarm == Alarm::none)) {
             return;
         }
+        moves = submitted_ != finished_ && phase_ == Phase::ready;
+        known_.alarm = alarm;
+        known_.sentence = why;
     }
-    const std::string why = make_ready(first);
-    if (!why.empty() && gives_up()) {
-        reopen();
-        drop_motion();
-    } else if (!why.empty()) {
-        fail(why);
+    if (!moves) {
+        fail(why, alarm);
     }
 }
 
-// Returns why it is not.
-std::string ServedTarget::make_ready(const FeedSegment& first) {
-    target_->set_ready(options_);
-    hal::MotionPort& port = target_->port();
-    if (const hal::PortFailure failure = port.prepare(first)) {
-        return target_->sentence(failure);
-    }
-    options_.reset = options_.home = false;
-    phase_ = Phase::ready;
-    feed_.begin(port.poll().executed);
-    return {};
+void ServedTarget::look_at_switches() {
+    RunTarget::Switches now = target_->switches();
+    const std::lock_guard lock(mutex_);
+    now.touched_mm = orders_.probe ? std::nullopt : now.touched_mm; // of the one before
+    known_.switches = now;
 }
 
 std::uint32_t ServedTarget::known_axes() const {
@@ -167,89 +156,6 @@ FeedSegment ServedTarget::standing() const {
     }
     out.end = out.start;
     return out;
-}
-
-void ServedTarget::close() {
-    target_->port().close();
-    phase_ = Phase::closed;
-}
-
-void ServedTarget::switch_off() {
-    if (phase_ == Phase::ready) {
-        if (const std::string what = target_->switch_off(); !what.empty()) {
-            fail(what);
-            return;
-        }
-    }
-    close();
-}
-
-// Behind a fault, or with drives that were off: everything anew, and their faults are reset.
-void ServedTarget::recover(bool resets) {
-    if (outputs_ == nullptr || feed_.outputs_ended() || !feed_.trouble().empty()) {
-        renew_outputs();
-    }
-    if (phase_ != Phase::closed && phase_ != Phase::failed) {
-        return;
-    }
-    options_.reset = resets;
-    reopen();
-    if (phase_ != Phase::open || !resets || known_axes() != all_axes()) {
-        return;
-    }
-    if (const std::string why = make_ready(standing()); !why.empty()) {
-        fail(why);
-    }
-}
-
-// Once they have ended they take no order any more.
-void ServedTarget::renew_outputs() {
-    feed_.set_outputs(nullptr);
-    outputs_.reset();
-    outputs_ = make_outputs_();
-    feed_.set_outputs(outputs_.get());
-}
-
-void ServedTarget::reopen() {
-    close();
-    target_->set_ready(options_);
-    if (const hal::PortFailure failure = target_->port().open()) {
-        fail(target_->sentence(failure));
-    } else {
-        find_place();
-    }
-}
-
-// The axes that search stand at 0 behind it, the others where they are. One that does not find its reference may stand
-// anywhere.
-void ServedTarget::find_references(std::uint32_t axes) {
-    const std::uint32_t known = known_axes();
-    const std::uint32_t search = target_->homes_with(axes);
-    if (phase_ == Phase::ready || phase_ == Phase::closed) {
-        reopen();
-    }
-    std::string why;
-    FeedSegment found = standing();
-    if (phase_ == Phase::open && !gives_up()) {
-        options_.home = true;
-        options_.home_axes = search;
-        for (const unsigned k : indices(machine_->settings.axes)) {
-            found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
-        }
-        found.end = found.start;
-        why = make_ready(found);
-        options_.home = false;
-    }
-    const bool homed = phase_ == Phase::ready;
-    if (homed) {
-        take_place(found);
-    } else if (phase_ == Phase::open) {
-        reopen(); // where it stands now
-    }
-    const std::lock_guard lock(mutex_);
-    known_.axes = homed ? known | search : known_.axes | (known & ~search);
-    known_.homing = homed ? HomingPhase::done : HomingPhase::failed;
-    known_.sentence = known_.alarm == Alarm::none ? why : known_.sentence; // the controller says it
 }
 
 // The end of a segment, to the last digit.
@@ -270,15 +176,15 @@ void ServedTarget::end_motion(const MotionEnd& end) {
         fail(feed_.trouble(), Alarm::spindle_speed);
         return;
     }
-    if (end.kind == MotionEnd::Kind::fault) {
-        fail(end.why);
+    if (end.kind == MotionEnd::Kind::fault || target_->stopped_by().cause != StopCause::none) {
+        fail_by(end.why);
         return;
     }
     FeedSegment next{.duration_ticks = segment_ticks_, .start = last.end, .end = last.end};
     if (end.kind == MotionEnd::Kind::halted) {
         constexpr int looks = 100; // a drive's answer may be late
         for (int look = 0; look < looks && !look_where(true); ++look) {
-            system_clock().sleep_us(10 * poll_every_us);
+            clock_->sleep_us(10 * poll_every_us);
         }
         if (known_axes() != all_axes()) {
             fail(end.why, Alarm::stopped_in_motion);
@@ -288,12 +194,8 @@ void ServedTarget::end_motion(const MotionEnd& end) {
     } else {
         take_place(last);
     }
-    if (end.kind == MotionEnd::Kind::complete && !end.why.empty()) { // a switch held the plan
-        fail(end.why, Alarm::limit_switch);
-        return;
-    }
     if (const hal::PortFailure failure = target_->port().renew(next)) {
-        fail(target_->sentence(failure));
+        fail_by(target_->sentence(failure));
         return;
     }
     feed_.begin(target_->port().poll().executed);
@@ -303,8 +205,18 @@ void ServedTarget::end_motion(const MotionEnd& end) {
     finish_motion();
 }
 
+// As the target says what has stopped it; else its drives have.
+void ServedTarget::fail_by(const std::string& sentence) {
+    const RunTarget::Stop stop = target_->stopped_by();
+    if (stop.cause == StopCause::none) {
+        fail(sentence);
+    } else {
+        fail(stop.why, alarm_of(stop.cause));
+    }
+}
+
 void ServedTarget::fail(const std::string& sentence, Alarm alarm) {
-    if (phase_ == Phase::ready) {
+    if (phase_ == Phase::ready || !target_->has_feedback()) {
         static_cast<void>(look_where(true));
     }
     phase_ = Phase::failed;
@@ -332,7 +244,7 @@ void ServedTarget::finish_motion() {
 
 // While it stands, its place is that to the last digit where the motion ended.
 bool ServedTarget::look_where(bool at_once) {
-    const std::uint64_t now_us = system_clock().now_us();
+    const std::uint64_t now_us = clock_->now_us();
     if (!at_once && now_us < looked_us_ + look_every_us) {
         return true;
     }
@@ -344,6 +256,9 @@ bool ServedTarget::look_where(bool at_once) {
     }
     const std::vector<RunTarget::AxisPlace> places = target_->places();
     const std::lock_guard lock(mutex_);
+    if (places.empty()) { // nothing has moved
+        return known_.axes == all_axes();
+    }
     double way_sq = 0.0;
     std::uint32_t axes = 0;
     for (const RunTarget::AxisPlace& at : places) {

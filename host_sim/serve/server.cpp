@@ -19,7 +19,8 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 Server::Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
                const MachineState& begins, bool says)
     : motion_(&motion.motion()), tool_(&tool), state_(state), lines_(line_memory), answers_(answer_memory),
-      text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says) {
+      text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says),
+      places_(tool.places()) {
     motion_->interpreter().restore(begins.offsets);
     door_ = make_sender_door({
         .opened =
@@ -71,18 +72,26 @@ void Server::obey(SignalWatch& signals) {
 void Server::step() {
     tool_->advance(Clock::now());
     controller_.execute(now_ms());
+    if (controller_.state() == ControllerState::home) {
+        moves();
+    }
     FeedSegment segment;
     bool more = true;
     while (tool_->has_room() && (more = controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item)) {
-        if (!moved_ && state_ != nullptr) {
-            state_->moves();
-        }
-        moved_ = true;
+        moves();
         tool_->submit(segment);
     }
     if (!more && motion_->at_rest() && (motion_->exhausted() || tool_->is_dry())) {
         tool_->rest();
     }
+}
+
+// Until it stands the state file knows no place.
+void Server::moves() {
+    if (!moved_ && state_ != nullptr) {
+        state_->moves();
+    }
+    moved_ = true;
 }
 
 void Server::answer() {
@@ -102,8 +111,13 @@ void Server::keep() {
     if (tool_->take_offsets_change()) {
         state_->offsets(motion_->interpreter().offsets());
     }
-    if (moved_ && tool_->stands() && motion_->exhausted()) {
-        state_->ends(tool_->places());
+    if (!tool_->stands() || !motion_->exhausted()) {
+        return;
+    }
+    std::vector<RunTarget::AxisPlace> places = tool_->places(); // homing, an e-stop and sleep change them, too
+    if (moved_ || places != places_) {
+        state_->ends(places);
+        places_ = std::move(places);
         moved_ = false;
     }
 }

@@ -33,6 +33,7 @@ private:
     [[nodiscard]] std::uint32_t now_ms() const;
     void obey(SignalWatch& signals);
     void step();
+    void moves();
     void answer();
     void keep();
 
@@ -48,7 +49,8 @@ private:
     int requests_ = 0; // to end, that were obeyed
     bool says_;
     bool leaves_ = false;
-    bool moved_ = false; // since the state was kept
+    bool moved_ = false;                       // since the state was kept,
+    std::vector<RunTarget::AxisPlace> places_; // which has these places
 };
 
 } // namespace splinefeed::host

@@ -4,6 +4,7 @@
 
 #include "gpio_bench.hpp"
 #include "host_sim/planning/straight_motion.hpp"
+#include "host_sim/ports/gpio/gpio_settings.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
 #include "support/virtual_clock.hpp"
 

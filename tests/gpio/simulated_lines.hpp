@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <deque>
+#include <functional>
 #include <utility>
 
 namespace splinefeed_test {
@@ -45,6 +46,7 @@ public:
         return ((inputs_ & mapped.line.mask()) != 0) == mapped.active_level;
     }
     void fail(bool fails) { fails_ = fails; }
+    std::function<void()> changed; ///< called when lines were set: what they move may act on inputs
     /// The call that comes next does not return for so long: whatever has the processor meanwhile.
     void stall(std::uint64_t ns) { stall_ns_ = ns; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -105,6 +107,9 @@ public:
         }
         levels_ = (levels_ & ~mask) | (levels & mask);
         rows_.push_back({clock_->now_ns(), levels_});
+        if (changed) {
+            changed();
+        }
         return true;
     }
 

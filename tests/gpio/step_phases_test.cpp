@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::array phase_names{"off",     "settling", "opening", "filling", "running",  "slowing",
                                  "starved", "stopping", "done",    "halted",  "disabled", "failed"};
-constexpr std::array event_names{"start",   "ready",    "opened",  "filled",    "late",
-                                 "stands",  "refilled", "cut off", "exhausted", "quick stop",
-                                 "disable", "error",    "overdue", "reset",     "park"};
+constexpr std::array event_names{"start",    "ready",   "opened",    "filled",     "late",    "stands",
+                                 "refilled", "cut off", "exhausted", "quick stop", "disable", "error",
+                                 "overdue",  "reset",   "park",      "clear"};
 static_assert(phase_names.size() == StepPhases::phases && event_names.size() == StepPhases::events);
 
 using Visits = std::array<std::array<std::uint64_t, StepPhases::events>, StepPhases::phases>;
@@ -59,6 +59,7 @@ const char* never(StepPhase phase, StepEvent event) {
         return is_bounded(phase) ? "time itself ends the phase, unless the port is wrong" : "it has no bound";
     case StepEvent::reset: return axes_move(phase) ? "stop() ends the motion first" : nullptr;
     case StepEvent::park: return axes_move(phase) ? "stop() ends the motion first" : nullptr;
+    case StepEvent::clear: return off_for_good ? nullptr : "nothing is to be cleared";
     case StepEvent::count: break;
     }
     return nullptr;
@@ -100,6 +101,10 @@ public:
                 }
                 rig_.port.power_off();
                 CHECK((rig_.port.may_be_on() || !rig_.lines.enabled()));
+            }
+            if (likely(0.5)) {
+                const bool cleared = rig_.port.clear();
+                CHECK(cleared != rig_.port.may_be_on());
             }
             rig_.port.reset();
         }

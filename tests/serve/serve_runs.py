@@ -263,6 +263,13 @@ def signals(tool, folder):
         server = started(tool, folder, "--state", state)
         sender = greeted(server)
         require(abs(sender.place()[0] - kept["position_mm"][0]) < 0.001, "it stands elsewhere")
+        sender.send(b"$X\n$H\n")
+        sender.until("Home")
+        require(json.loads(pathlib.Path(state).read_text())["position_mm"] == [None] * 3, "the state file does not know that it homes")
+        sender.until("Idle")
+        time.sleep(0.1)
+        require(json.loads(pathlib.Path(state).read_text())["position_mm"] == [0.0] * 3, "the state file does not know that it has homed")
+        sender.text = b""
         sender.send(b"$#\n")
         require(sender.line() == "[G54:1.000,0.000,0.000]", "the offsets are lost")
         sender.close()

@@ -227,8 +227,9 @@ public:
         auto made = std::make_unique<TalkingDrives>();
         drives = made.get();
         drives->knows = known;
-        machine = std::make_unique<ServedTarget>(std::move(made), description, 8000, PerAxis<double>{},
-                                                 [this] { return outputs_of(out); });
+        machine =
+            std::make_unique<ServedTarget>(std::move(made), description, ServedTarget::Settings{.segment_ticks = 8000},
+                                           [this] { return outputs_of(out); });
     }
 
 protected:

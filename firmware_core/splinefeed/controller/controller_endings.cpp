@@ -115,7 +115,7 @@ void Controller::settle() noexcept {
     ending_ = Ending::none;
     quick_ = jogging_ = rests_ = false;
     held_ = ending == Ending::jog ? held_ : false;
-    if (door_) { // it cancelled a jog
+    if (door_ && ending != Ending::reset) { // it cancelled a jog
         motion_->hold();
     }
     if (ending == Ending::reset) {

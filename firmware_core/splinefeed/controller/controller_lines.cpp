@@ -94,7 +94,7 @@ struct DollarCommands {
         if (!rest.at_end()) {
             c.refuse(LineError::unknown_command);
         } else if (!c.settings_->homes) {
-            c.say("No axis of the machine file has a home");
+            c.say(c.settings_->no_home);
             c.refuse(LineError::no_homing);
         } else if (!ready || c.reading_.alarm != Alarm::none) {
             c.refuse(LineError::not_now);

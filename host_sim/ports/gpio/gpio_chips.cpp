@@ -27,6 +27,9 @@ void join(LevelMasks& masks, const LevelMasks& others) {
 GpioChips::GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine)
     : map_(&map), machine_(&machine) {
     for (const hal::gpio::ChipLines& chip : map.chips) {
+        claims_.emplace_back(chip);
+    }
+    for (const hal::gpio::ChipLines& chip : map.chips) {
         writer_.push_back(chip.outputs.empty() ? nullptr : std::make_unique<Writer>(chip, map.consumer));
         source_.push_back(chip.inputs.empty() ? nullptr : std::make_unique<Source>(chip, map.consumer));
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/ports/gpio/line_claims.hpp"
 
 #include "splinefeed/hal/gpio/crash_guard.hpp"
 #include "splinefeed/hal/gpio/input_lines.hpp"
@@ -11,6 +12,7 @@
 #include "splinefeed/hal/gpio/step_port.hpp"
 
 #include <deque>
+#include <list>
 #include <memory>
 
 namespace splinefeed::host {
@@ -83,6 +85,7 @@ private:
 
     const hal::gpio::LineMap* map_;
     const MachineDescription* machine_;
+    std::list<LineClaims> claims_;
     std::vector<std::unique_ptr<Writer>> writer_; // one per chip; null: the chip has no outputs
     std::vector<std::unique_ptr<Source>> source_; // one per chip; null: the chip has no inputs
     std::optional<hal::gpio::CrashGuard> guard_;

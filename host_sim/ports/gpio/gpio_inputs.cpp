@@ -64,10 +64,9 @@ bool GpioInputs::active(std::size_t input) const {
     return false;
 }
 
-std::optional<std::size_t> GpioInputs::stopping() const {
+std::optional<std::size_t> GpioInputs::pressed() const {
     for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
-        const InputRole role = map_->inputs[i].role;
-        if ((role == InputRole::limit || role == InputRole::drive_fault) && active(i)) {
+        if (map_->inputs[i].role == InputRole::e_stop && active(i)) {
             return i;
         }
     }

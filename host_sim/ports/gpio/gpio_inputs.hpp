@@ -28,8 +28,8 @@ public:
     /// The oldest change that was not taken yet.
     [[nodiscard]] std::optional<SwitchChange> take();
     [[nodiscard]] bool active(std::size_t input) const;
-    /// The first limit or drive fault that is active, by its last known level; nothing: none is.
-    [[nodiscard]] std::optional<std::size_t> stopping() const;
+    /// The first e-stop that is active; nothing: none is.
+    [[nodiscard]] std::optional<std::size_t> pressed() const;
     /// Home input of an axis; nothing: it has none.
     [[nodiscard]] std::optional<std::size_t> home_of(int axis) const;
     /// Why a machine must not start: "the e-stop (/dev/gpiochip0 ESTOP) acts; release it". Empty: it may start.

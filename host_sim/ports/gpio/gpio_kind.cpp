@@ -28,7 +28,6 @@ LinkReport gpio_link_report(const std::string& target, const MachineDescription&
 extern const TargetKind gpio_kind{
     .names = gpio_names,
     .help = gpio_help,
-    .serves = false,
     .is = is_gpio_address,
     .check = check_gpio,
     .make = make_gpio,

@@ -5,8 +5,11 @@
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include "host_sim/config/gpio_map.hpp"
-#include "host_sim/ports/gpio/gpio_target.hpp"
+#include "host_sim/ports/gpio/gpio_chips.hpp"
+#include "host_sim/ports/gpio/gpio_inputs.hpp"
+#include "host_sim/ports/gpio/gpio_settings.hpp"
 #include "host_sim/ports/histogram_picture.hpp"
+#include "host_sim/ports/run_target.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -150,10 +150,10 @@ GpioMover::Moved GpioMover::move_by(int axis, double mm, double feed_mm_s, Way w
     return move(to, feed_mm_s, way, until);
 }
 
-std::string GpioMover::home() {
+std::string GpioMover::home(std::uint32_t axes) {
     for (int axis = machine_->settings.axes - 1; axis >= 0; --axis) {
-        if (map_->home[static_cast<unsigned>(axis)]) {
-            if (const std::string what = home(axis); !what.empty()) {
+        if (map_->home[static_cast<unsigned>(axis)] && (axes >> static_cast<unsigned>(axis) & 1U) != 0) {
+            if (const std::string what = home_axis(axis); !what.empty()) {
                 return fmt::format("axis {} does not find its reference: {}",
                                    machine_->axis_name[static_cast<unsigned>(axis)], what);
             }
@@ -162,7 +162,7 @@ std::string GpioMover::home() {
     return {};
 }
 
-std::string GpioMover::home(int axis) {
+std::string GpioMover::home_axis(int axis) {
     const auto k = static_cast<unsigned>(axis);
     const hal::gpio::HomeSearch& search = *map_->home[k];
     const std::size_t input = *inputs_->home_of(axis);

@@ -21,10 +21,10 @@ public:
               hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop,
               hal::Clock& clock);
 
-    /// Each axis with a home switch searches it, the last axis of the machine file first: fast approach, back off, slow
-    /// approach, and clear the switch. All within the machine's limits. Returns an empty text, or what went wrong and
-    /// what would be right.
-    [[nodiscard]] std::string home();
+    /// Each of these axes that has a home switch searches it, the last axis of the machine file first: fast approach,
+    /// back off, slow approach, and clear the switch. All within the machine's limits. Returns an empty text, or what
+    /// went wrong and what would be right. @param axes  by bits
+    [[nodiscard]] std::string home(std::uint32_t axes = UINT32_MAX);
     /// Moves in a straight line from the present position. Returns an empty text, or what went wrong.
     [[nodiscard]] std::string go_to(const PerAxis<double>& mm);
 
@@ -60,7 +60,7 @@ private:
     };
 
     [[nodiscard]] double mm_of(int axis, std::int64_t count) const noexcept;
-    [[nodiscard]] std::string home(int axis);
+    [[nodiscard]] std::string home_axis(int axis);
     [[nodiscard]] Moved move(const PerAxis<double>& to_mm, double feed_mm_s, Way way, std::optional<Until> until);
     /// Moves one axis by a distance.
     [[nodiscard]] Moved move_by(int axis, double mm, double feed_mm_s, Way way,

@@ -6,14 +6,14 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/gpio_map.hpp"
-#include "host_sim/config/step_lines.hpp"
 #include "host_sim/output/place_text.hpp"
+#include "host_sim/ports/gpio/gpio_settings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -21,38 +21,7 @@ using hal::gpio::InputRole;
 
 namespace {
 
-constexpr int measured_calls = 500;      // to measure one by
-constexpr double share_of_time = 0.5;    // that calls may take
-constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as long: a hold waits for what is buffered
-
-/// Half of the longest time in which an axis brakes from the speed that it may have.
-std::uint32_t reserve_ms(const MachineDescription& machine) {
-    double braking_s = 0.0;
-    for (const unsigned k : indices(machine.settings.axes)) {
-        const AxisSettings& axis = machine.settings.axis[k];
-        const double most =
-            axis.rotary ? axis.max_velocity_mm_s : std::min(axis.max_velocity_mm_s, machine.settings.max_feed_mm_s);
-        braking_s = std::max(braking_s, most / axis.max_acceleration_mm_s2);
-    }
-    return static_cast<std::uint32_t>(
-        std::ceil(std::clamp(braking_s * 500.0, double{hal::gpio::StepPort::least_reserve_ms}, most_reserve_ms)));
-}
-
-/// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
-/// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
-hal::StopTimes stop_times(const MachineDescription& machine) {
-    constexpr double handed_over_s = 1.0;
-    double braking_s = 0.0;
-    for (const unsigned k : indices(machine.settings.axes)) {
-        const AxisSettings& axis = machine.settings.axis[k];
-        const double jerk_s = axis.max_jerk_mm_s3 > 0.0 ? axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3 : 0.0;
-        braking_s = std::max(braking_s, axis.max_velocity_mm_s / axis.max_acceleration_mm_s2 + jerk_s);
-    }
-    return {.hold_us = static_cast<std::uint64_t>((handed_over_s + 2.0 * braking_s) * us_per_s),
-            .quick_stop_us = 400'000, // the port's slow-down, four times
-            .disable_us = 200'000,
-            .settle_us = 2000};
-}
+constexpr int measured_calls = 500; // to measure one by
 
 std::vector<GpioSummary::Octave> octaves(const hal::TimeHistogram& late) {
     std::vector<GpioSummary::Octave> some;
@@ -73,48 +42,6 @@ std::string lacking(const hal::RealTimeSettings& settings) {
 
 } // namespace
 
-double most_edges_per_s(double call_ns) noexcept {
-    return share_of_time * ns_per_s / call_ns;
-}
-
-// Along a path at a feed f the axes make at most |steps_per_mm| f steps a second in all (Cauchy-Schwarz).
-double asked_edges_per_s(const MachineDescription& machine) noexcept {
-    double of_axes = 0.0;
-    double squares = 0.0;
-    double rotary = 0.0;
-    for (const unsigned k : indices(machine.settings.axes)) {
-        const AxisSettings& axis = machine.settings.axis[k];
-        const double rate = axis.max_velocity_mm_s * axis.steps_per_mm;
-        (axis.rotary ? rotary : of_axes) += rate;
-        squares += axis.rotary ? 0.0 : axis.steps_per_mm * axis.steps_per_mm;
-    }
-    const double steps = rotary + std::min(of_axes, std::sqrt(squares) * machine.settings.max_feed_mm_s);
-    return steps * (machine.step.step_on_edge ? 1.0 : 2.0);
-}
-
-hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
-                                          hal::Clock* clock) {
-    const bool real = clock == nullptr;
-    PerAxis<double> acceleration{};
-    for (const unsigned k : indices(machine.settings.axes)) {
-        const AxisSettings& axis = machine.settings.axis[k];
-        acceleration[k] = axis.max_acceleration_mm_s2 * axis.steps_per_mm;
-    }
-    return {.axes = machine.settings.axes,
-            .timing = checked_step_timing(machine),
-            .real_time = {.priority = real ? map.thread.priority : 0,
-                          .cpu = map.thread.cpu,
-                          .spin_ns = real ? static_cast<std::uint32_t>(map.thread.spin_us * ns_per_us) : 0},
-            .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
-            .settle_ms = map.enable ? map.enable->settle_ms : 0,
-            .brake_release_ms = map.brake ? map.brake->release_ms : 0,
-            .brake_engage_ms = map.brake ? map.brake->engage_ms : 0,
-            .acceleration = acceleration,
-            .reserve_ms = reserve_ms(machine),
-            .stall_ns = std::uint64_t{map.thread.stall_ms} * 1000 * ns_per_us,
-            .clock = clock};
-}
-
 GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
                        const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
     : machine_(&machine), options_(options), time_(clock != nullptr ? clock : &hal::system_clock()),
@@ -123,8 +50,12 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
       inputs_(*map_, machine, *chips_, port_,
               {.priority = clock == nullptr ? map_->thread.priority + 1 : 0, .clock = clock}),
       mover_(
-          machine, *map_, inputs_, port_, &SignalWatch::interrupts, [this] { quick_stop(); }, *time_),
-      stop_(1, stop_times(machine)), began_ns_(time_->now_ns()) {
+          machine, *map_, inputs_, port_,
+          [this] { return !options_.serves         ? SignalWatch::interrupts()
+                          : options_.interrupted() ? 2
+                                                   : 0; },
+          [this] { quick_stop(); }, *time_),
+      stops_(machine, *map_, inputs_), stop_(1, stop_times(machine)), began_ns_(time_->now_ns()) {
     if (clock == nullptr) {
         awake_.emplace();
         missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
@@ -138,10 +69,6 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
                         "velocities, max_feed_mm_s or steps_per_mm",
                         mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine)));
     }
-    const auto has = [&](InputRole role) {
-        return std::any_of(map_->inputs.begin(), map_->inputs.end(),
-                           [&](const auto& input) { return input.role == role; });
-    };
     if (options.probe && !has(InputRole::probe)) {
         throw UsageError("--probe: the map has no input with the role probe");
     }
@@ -163,6 +90,10 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
     return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);
 }
 
+bool GpioTarget::has(InputRole role) const noexcept {
+    return std::any_of(map_->inputs.begin(), map_->inputs.end(), [&](const auto& input) { return input.role == role; });
+}
+
 // The lines become safe when nobody sets any more.
 GpioTarget::~GpioTarget() {
     port_.close();
@@ -178,48 +109,130 @@ hal::PortFailure GpioTarget::prepare(const FeedSegment& first) {
     return {make_ready(first)};
 }
 
+// Where axes stand whose place is not known is what the motion says. The others keep their counts.
 std::string GpioTarget::make_ready(const FeedSegment& first) {
-    if (std::string what = inputs_.in_the_way(!options_.home); !what.empty()) {
+    const auto limit = options_.serves && !options_.home ? stops_.acting() : std::nullopt;
+    if (limit) {
+        return fmt::format("the {} acts", inputs_.name(*limit));
+    }
+    if (std::string what = inputs_.in_the_way(!options_.home && !options_.serves); !what.empty()) {
         return what;
     }
+    forget_stop();
     began_ = true;
     PerAxis<double> begin_mm{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         const auto axis = static_cast<unsigned>(k);
-        mover_.preset_position(k, nearest_step(first.start[axis]));
+        if (!mover_.referenced(k)) {
+            mover_.preset_position(k, nearest_step(first.start[axis]));
+        }
         begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
                          machine_->settings.axis[axis].steps_per_mm;
     }
     if (options_.home) {
-        for (int k = 0; k < machine_->settings.axes; ++k) {
-            if (map_->home[static_cast<unsigned>(k)]) {
-                mover_.forget_position(k);
-            }
-        }
-        if (std::string what = mover_.home(); !what.empty()) {
-            return port_.was_disabled() ? fault() : what;
-        }
-        if (std::string what = inputs_.in_the_way(true); !what.empty()) {
-            return what;
-        }
-        if (std::string what = mover_.go_to(begin_mm); !what.empty()) {
+        if (std::string what = home(begin_mm); !what.empty()) {
             return port_.was_disabled() ? fault() : what;
         }
     }
-    while (inputs_.take()) { // discard the changes during homing
+    while (options_.home || !options_.serves ? inputs_.take().has_value() : false) { // changes during homing
     }
     port_.close();
     port_.reset();
     static_cast<void>(port_.start());
-    began_ns_ = time_->now_ns();
+    begins_ = true;
+    began_ns_ = options_.serves ? began_ns_ : time_->now_ns();
     return {};
 }
 
+std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
+    const std::uint32_t axes = homes_with(options_.home_axes);
+    if (axes == 0) {
+        return no_home_sentence(*map_, *machine_, options_.home_axes);
+    }
+    for (int k = 0; k < machine_->settings.axes; ++k) {
+        if ((axes >> static_cast<unsigned>(k) & 1U) != 0) {
+            mover_.forget_position(k);
+        }
+    }
+    std::string what = mover_.home(axes);
+    what = what.empty() ? inputs_.in_the_way(true) : what;
+    return !what.empty() || options_.serves ? what : mover_.go_to(begin_mm);
+}
+
+// A motion that begins a little beside the middle between two counts begins at the count where its axis stands, which
+// may be the other one: no step is lost however often that happens.
+bool GpioTarget::align(const FeedSegment& first) {
+    constexpr std::int64_t half = units_per_count / 2;
+    constexpr std::int64_t most = units_per_count / 100;
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        const std::int64_t at = mover_.count(static_cast<int>(k)) * units_per_count;
+        shift_[k] = std::clamp(first.start[k], at - half, at + half - 1) - first.start[k];
+        if (shift_[k] > most || shift_[k] < -most) {
+            hold(StopCause::drive_fault,
+                 fmt::format("axis {} stands at {:.4f} mm, and its motion begins at {:.4f} mm", machine_->axis_name[k],
+                             mover_.position(static_cast<int>(k)),
+                             static_cast<double>(first.start[k]) / static_cast<double>(units_per_count) /
+                                 machine_->settings.axis[k].steps_per_mm));
+            return false;
+        }
+    }
+    return true;
+}
+
+bool GpioTarget::submit(const FeedSegment& segment) noexcept {
+    const auto limit = stops_.led_into(segment);
+    if (limit) {
+        hold(StopCause::limit_switch, fmt::format("the {} still acts: move away from it", inputs_.name(*limit)));
+    }
+    if (limit || (std::exchange(begins_, false) && !align(segment))) {
+        port_.quick_stop();
+        return false;
+    }
+    FeedSegment own = segment;
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        own.start[k] += shift_[k];
+        own.end[k] += shift_[k];
+    }
+    return port_.submit(own);
+}
+
+void GpioTarget::hold(StopCause cause, const std::string& why) {
+    if (holds_.empty()) {
+        holds_ = why;
+        cause_ = cause;
+    }
+}
+
+void GpioTarget::hold_by(std::size_t input) {
+    const bool limit = map_->inputs[input].role == InputRole::limit;
+    const char* const what = !options_.serves ? "held on the path"
+                             : limit          ? "reset, unlock by $X, and jog away from it"
+                                              : "see what the drive shows, and reset";
+    hold(limit ? StopCause::limit_switch : StopCause::drive_fault,
+         fmt::format("the {} acts: {}", inputs_.name(input), what));
+}
+
+void GpioTarget::forget_stop() noexcept {
+    holds_.clear();
+    cause_ = StopCause::none;
+    stop_.reset();
+    executed_us_ = 0;
+    quick_ = completed_ = false;
+}
+
 hal::PortState GpioTarget::poll() noexcept {
+    PerAxis<std::int64_t> counts{};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        counts[k] = port_.counts(static_cast<int>(k));
+    }
+    stops_.follow(counts, time_->now_us());
     take_changes();
     // Levels, too: a change may have been taken before the run.
-    if (const auto input = inputs_.stopping(); input && holds_.empty()) {
-        holds_ = fmt::format("the {} acts: held on the path", inputs_.name(*input));
+    if (const auto input = stops_.acting()) {
+        hold_by(*input);
+    }
+    if (inputs_.pressed() && !port_.was_disabled()) {
+        port_.disable();
     }
     follow_stop();
     return port_.poll();
@@ -249,29 +262,42 @@ void GpioTarget::follow_stop() {
     }
 }
 
+PerAxis<double> GpioTarget::positions_at(const std::optional<PerAxis<std::int64_t>>& counts) const {
+    PerAxis<double> out{};
+    for (int k = 0; k < machine_->settings.axes; ++k) {
+        const auto axis = static_cast<unsigned>(k);
+        out[axis] = counts ? mover_.position_at(k, (*counts)[axis]) : mover_.position(k);
+    }
+    return out;
+}
+
+// For the summary.
+void GpioTarget::note(const SwitchChange& change) {
+    const hal::gpio::MappedInput& input = map_->inputs[change.input];
+    GpioSummary::Change entry{
+        .role = role_name(input.role),
+        .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
+        .active = change.active,
+        .time_s = static_cast<double>(static_cast<std::int64_t>(change.time_ns - began_ns_)) / ns_per_s,
+        .position_mm = std::nullopt};
+    if (change.counts) {
+        const PerAxis<double> at = positions_at(change.counts);
+        entry.position_mm.emplace(at.begin(), at.begin() + machine_->settings.axes);
+    }
+    input_summary_.add(std::move(entry));
+}
+
 void GpioTarget::take_changes() {
     while (const auto change = inputs_.take()) {
-        const hal::gpio::MappedInput& input = map_->inputs[change->input];
-        GpioSummary::Change entry{
-            .role = role_name(input.role),
-            .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
-            .active = change->active,
-            .time_s = static_cast<double>(static_cast<std::int64_t>(change->time_ns - began_ns_)) / ns_per_s,
-            .position_mm = std::nullopt};
-        if (change->counts) {
-            entry.position_mm.emplace();
-            for (int k = 0; k < machine_->settings.axes; ++k) {
-                entry.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
-            }
+        note(*change);
+        const bool probe = map_->inputs[change->input].role == InputRole::probe;
+        if (probe && probe_away_ && change->active != *probe_away_) {
+            touched_mm_ = positions_at(change->counts);
+            probe_away_.reset();
         }
-        input_summary_.add(std::move(entry));
-        const bool stops = input.role == InputRole::limit || input.role == InputRole::drive_fault;
-        if (!change->active || !holds_.empty()) {
-            continue;
-        }
-        if (stops) {
-            holds_ = fmt::format("the {} acts: held on the path", inputs_.name(change->input));
-        } else if (input.role == InputRole::probe && options_.probe) {
+        if (stops_.stops(*change)) {
+            hold_by(change->input);
+        } else if (probe && change->active && options_.probe && holds_.empty()) {
             holds_ = fmt::format("the {} touched: held on the path", inputs_.name(change->input));
             probed_ = true;
         }
@@ -338,11 +364,11 @@ std::optional<double> GpioTarget::place(int axis) const {
     return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
 }
 
-// Nothing on step lines knows it; behind homing they are moved.
+// Nothing on step lines knows it but the steps that were made; behind homing they are moved.
 std::vector<RunTarget::AxisPlace> GpioTarget::standing() {
     std::vector<AxisPlace> out;
     for (int k = 0; !options_.home && k < machine_->settings.axes; ++k) {
-        out.push_back({static_cast<unsigned>(k), std::nullopt});
+        out.push_back({static_cast<unsigned>(k), port_.position_known() ? place(k) : std::nullopt});
     }
     return out;
 }

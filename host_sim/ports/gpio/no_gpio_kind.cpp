@@ -33,7 +33,6 @@ LinkReport report(const std::string& /*target*/, const MachineDescription& /*mac
 extern const TargetKind gpio_kind{
     .names = gpio_names,
     .help = gpio_help,
-    .serves = false,
     .is = is_gpio_address,
     .check = check,
     .make = make,

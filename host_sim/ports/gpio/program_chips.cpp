@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/ports/gpio/program_chips.hpp"
 
+#include "host_sim/ports/gpio/line_claims.hpp"
 #include "host_sim/ports/run_target.hpp"
 
 #include "splinefeed/hal/gpio/crash_guard.hpp"
@@ -19,13 +20,14 @@ constexpr const char* line_consumer = "splinefeed";
 class GuardedLines final : public hal::gpio::LineWriter {
 public:
     explicit GuardedLines(const hal::gpio::ChipLines& chip)
-        : lines_(chip.chip, line_consumer, chip.outputs), chips_{&lines_}, guard_(chips_) {}
+        : claims_(chip), lines_(chip.chip, line_consumer, chip.outputs), chips_{&lines_}, guard_(chips_) {}
     [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
         const std::lock_guard lock(mutex_);
         return lines_.set(mask, levels);
     }
 
 private:
+    LineClaims claims_;
     std::mutex mutex_;
     hal::gpio::OutputLines lines_;
     std::array<hal::gpio::OutputLines*, 1> chips_;
@@ -34,13 +36,15 @@ private:
 
 class ReadLines final : public hal::gpio::InputSource {
 public:
-    explicit ReadLines(const hal::gpio::ChipLines& chip) : lines_(chip.chip, line_consumer, chip.inputs) {}
+    explicit ReadLines(const hal::gpio::ChipLines& chip)
+        : claims_(chip), lines_(chip.chip, line_consumer, chip.inputs) {}
     [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return lines_.levels(); }
     [[nodiscard]] int wait(std::span<hal::gpio::InputEvent> out, std::uint32_t timeout_us) noexcept override {
         return lines_.wait(out, timeout_us);
     }
 
 private:
+    LineClaims claims_;
     hal::gpio::InputLines lines_;
 };
 

@@ -43,7 +43,6 @@ extern const TargetKind modbus_kind{
     .names = "modbus, modbus-tcp://, modbus-rtu:// (docs/reference/modbus.md)",
     .help = "modbus: each axis's drive as the machine file names it; modbus-tcp://HOST:PORT?unit=1 or "
             "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes",
-    .serves = true,
     .is = is_modbus,
     .check = check_modbus,
     .make = make_modbus_target,

@@ -84,6 +84,7 @@ struct ThreadSettings {
 };
 
 struct LineMap {
+    std::string file; ///< that says so, for messages
     std::string consumer = "splinefeed";
     std::vector<ChipLines> chips;
     std::array<AxisLines, max_axes> axis{}; ///< in the order of the machine file

@@ -28,6 +28,7 @@ constexpr Change changes[] = {
     {Phase::stopping, Event::stands, Phase::halted},      {Phase::stopping, Event::exhausted, Phase::done},
     {Phase::done, Event::reset, Phase::filling},          {Phase::starved, Event::reset, Phase::filling},
     {Phase::halted, Event::reset, Phase::settling}, // perhaps its brake was never released
+    {Phase::disabled, Event::clear, Phase::off},          {Phase::failed, Event::clear, Phase::off},
 };
 
 constexpr StepPhases::Table make_table() {
@@ -36,7 +37,7 @@ constexpr StepPhases::Table make_table() {
         const auto own = static_cast<Phase>(phase);
         table[phase].fill(own);
         if (switched_off(own)) {
-            continue; // for good
+            continue; // until they are cleared
         }
         table[phase][static_cast<std::size_t>(Event::disable)] = Phase::disabled;
         table[phase][static_cast<std::size_t>(Event::error)] = Phase::failed;

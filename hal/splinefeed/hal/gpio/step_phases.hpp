@@ -39,6 +39,7 @@ enum class StepEvent : std::uint8_t {
     overdue, ///< the phase has lasted for longer than its bound
     reset,   ///< another motion follows
     park,    ///< the drives were disabled in order
+    clear,   ///< behind a fault they may be enabled again
     count
 };
 
@@ -57,7 +58,7 @@ extern const StepPhases::Table step_phase_table;
 [[nodiscard]] constexpr bool is_bounded(StepPhase phase) noexcept {
     return phase == StepPhase::settling || phase == StepPhase::opening || axes_move(phase);
 }
-/// The drives are off for good.
+/// The drives are off until clear().
 [[nodiscard]] constexpr bool switched_off(StepPhase phase) noexcept {
     return phase == StepPhase::disabled || phase == StepPhase::failed;
 }

@@ -114,6 +114,23 @@ void StepPort::reset() noexcept {
     take(StepEvent::reset);
 }
 
+bool StepPort::clear() noexcept {
+    if (!position_known() && (!switched_off(phases_.phase()) || may_be_on_.load())) {
+        switch_off(StepEvent::error);
+    }
+    if (may_be_on_.load()) {
+        return false;
+    }
+    requests_.fetch_and(static_cast<std::uint8_t>(~(disable_bit | silent_bit)));
+    error_.store(0);
+    overdue_.store(nullptr);
+    if (switched_off(phases_.phase())) {
+        take(StepEvent::clear);
+    }
+    reset();
+    return true;
+}
+
 StepPortReport StepPort::report() const noexcept {
     return {made_.load(), buffer_underruns_.load(), schedule_slip_ns_.load()};
 }

@@ -86,6 +86,9 @@ public:
     void power_off() noexcept override;
     /// Prepares for another motion, which may begin at any position. @pre closed
     void reset() noexcept;
+    /// Behind disable() or a fault: start() enables the drives again. Where they stand nobody knows: counts() go on
+    /// from what they were. false: the drives may still be on, and the fault stays. @pre closed
+    [[nodiscard]] bool clear() noexcept;
 
     /// Position of an axis: the sum of its steps. [counts]
     [[nodiscard]] std::int64_t counts(int axis) const noexcept {
@@ -106,6 +109,10 @@ public:
     /// Whether counts() are the positions of the motors. A stepper has no feedback: lost steps are not detected.
     [[nodiscard]] bool position_known() const noexcept {
         return !asked(disable_bit | silent_bit) && phase_.load() != StepPhase::failed;
+    }
+    /// Motion that it needs to slow down with what it has: with less it does so by itself. [us]
+    [[nodiscard]] std::uint64_t reserve_us() const noexcept {
+        return std::max(present_ns_.load(), ahead_ns_.load()) / ns_per_us;
     }
     /// Log of steps: positions of all axes at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }

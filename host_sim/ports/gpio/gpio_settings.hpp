@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// gpio_settings: what a machine and its map ask of step lines: rates, the settings of their port, the times of its
+// stops.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+
+#include "splinefeed/hal/gpio/line_map.hpp"
+#include "splinefeed/hal/gpio/step_port.hpp"
+#include "splinefeed/hal/stop_sequence.hpp"
+
+namespace splinefeed::host {
+
+/// Number of lines that may be set per second if a call takes this long: half of the time may be spent in calls.
+[[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
+/// Number of edges per second that the machine's limits may require.
+[[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
+/// Settings from the thread section of the map.
+[[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
+                                                        const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
+/// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
+/// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
+[[nodiscard]] hal::StopTimes stop_times(const MachineDescription& machine);
+
+} // namespace splinefeed::host

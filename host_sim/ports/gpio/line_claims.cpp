@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/ports/gpio/line_claims.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+LineClaims::LineClaims(const hal::gpio::ChipLines& chip) {
+    std::error_code none;
+    const std::filesystem::path device = std::filesystem::canonical(chip.chip, none); // it may be a link
+    const std::string path = none ? chip.chip : device.string();
+    for (const hal::gpio::OutputRequest& output : chip.outputs) {
+        add(path, output.line);
+    }
+    for (const hal::gpio::InputRequest& input : chip.inputs) {
+        add(path, input.line);
+    }
+}
+
+void LineClaims::add(const std::string& chip, const hal::gpio::LineName& line) {
+    const std::string name = line.name.empty() ? fmt::format("line {}", line.offset.value_or(0)) : line.name;
+    const ResourceClaim& claim = claims_.emplace_back("gpio:" + chip + "/" + name);
+    if (!claim.holder().empty()) {
+        throw hal::gpio::GpioError(fmt::format("{} of {}: {} uses it; end that first", name, chip, claim.holder()));
+    }
+}
+
+} // namespace splinefeed::host

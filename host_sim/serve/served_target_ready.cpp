@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// What the thread of a ServedTarget does before motions and between them: drives that are made ready, homed, reset,
+// switched off.
+#include "host_sim/serve/served_target.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+// The drives say where they stand; what they do not know has been told. Of those that cannot be asked it stays known.
+void ServedTarget::find_place() {
+    std::vector<RunTarget::AxisPlace> places;
+    try {
+        places = target_->standing();
+    } catch (const TargetError& error) {
+        fail_by(error.what());
+        return;
+    }
+    phase_ = Phase::open;
+    const std::lock_guard lock(mutex_);
+    known_.axes = target_->has_feedback() ? 0U : known_.axes;
+    for (const RunTarget::AxisPlace& at : places) {
+        known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
+        known_.axes |= at.mm ? 1U << at.axis : 0U;
+    }
+}
+
+// Where the motion begins the machine has to stand: else a position would get another name.
+void ServedTarget::begin_first() {
+    if (phase_ == Phase::closed) {
+        reopen();
+    }
+    if (phase_ != Phase::open) {
+        return;
+    }
+    const FeedSegment first = feed_.front();
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        const double counts = static_cast<double>(first.start[k]) / static_cast<double>(units_per_count);
+        const double off = std::fabs(counts - known_.mm[k] * machine_->settings.axis[k].steps_per_mm);
+        if (off > standstill_window_counts(*machine_, k)) {
+            fail(fmt::format("axis {} stands elsewhere than where the motion begins: reset", machine_->axis_name[k]));
+            return;
+        }
+    }
+    const std::string why = make_ready(first);
+    if (!why.empty() && gives_up()) {
+        reopen();
+        drop_motion();
+    } else if (!why.empty()) {
+        fail_by(why);
+    }
+}
+
+// Returns why it is not.
+std::string ServedTarget::make_ready(const FeedSegment& first) {
+    target_->set_ready(options_);
+    hal::MotionPort& port = target_->port();
+    if (const hal::PortFailure failure = port.prepare(first)) {
+        return target_->sentence(failure);
+    }
+    options_.reset = options_.home = false;
+    phase_ = Phase::ready;
+    feed_.begin(port.poll().executed);
+    return {};
+}
+
+void ServedTarget::close() {
+    target_->disconnect();
+    phase_ = Phase::closed;
+}
+
+void ServedTarget::switch_off() {
+    if (phase_ == Phase::ready || !target_->has_feedback()) {
+        if (const std::string what = target_->switch_off(); !what.empty()) {
+            fail(what);
+            return;
+        }
+    }
+    if (!target_->has_feedback()) {
+        static_cast<void>(look_where(true)); // motors that hold no axis
+    }
+    close();
+}
+
+// Behind a fault, or with drives that were off: everything anew, and their faults are reset.
+void ServedTarget::recover(bool resets) {
+    if (outputs_ == nullptr || feed_.outputs_ended() || !feed_.trouble().empty()) {
+        renew_outputs();
+    }
+    if (phase_ != Phase::closed && phase_ != Phase::failed) {
+        return;
+    }
+    options_.reset = resets;
+    reopen();
+    // Drives that were on and cannot be asked still are; those that an e-stop has switched off wait for a motion.
+    if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !target_->has_feedback()) {
+        return;
+    }
+    if (const std::string why = make_ready(standing()); !why.empty()) {
+        fail_by(why);
+    }
+}
+
+// Once they have ended they take no order any more.
+void ServedTarget::renew_outputs() {
+    feed_.set_outputs(nullptr);
+    outputs_.reset();
+    outputs_ = make_outputs_();
+    feed_.set_outputs(outputs_.get());
+}
+
+void ServedTarget::reopen() {
+    if (!target_->has_feedback()) {
+        static_cast<void>(look_where(true)); // what was lost meanwhile stays so
+    }
+    close();
+    target_->set_ready(options_);
+    if (const hal::PortFailure failure = target_->port().open()) {
+        fail_by(target_->sentence(failure));
+    } else {
+        find_place();
+    }
+}
+
+// The axes that search stand at 0 behind it, the others where they are. One that does not find its reference may stand
+// anywhere.
+void ServedTarget::find_references(std::uint32_t axes) {
+    const std::uint32_t known = known_axes();
+    const std::uint32_t search = target_->homes_with(axes);
+    if (phase_ == Phase::ready || phase_ == Phase::closed) {
+        reopen();
+    }
+    std::string why;
+    FeedSegment found = standing();
+    if (phase_ == Phase::open && !gives_up()) {
+        options_.home = true;
+        options_.home_axes = search != 0 ? search : axes; // it says why there is none
+        {
+            const std::lock_guard lock(mutex_);
+            known_.axes &= ~search;
+        }
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
+        }
+        found.end = found.start;
+        why = make_ready(found);
+        options_.home = false;
+    }
+    const bool homed = phase_ == Phase::ready;
+    if (homed) {
+        take_place(found);
+        const std::lock_guard lock(mutex_);
+        for (const RunTarget::AxisPlace& at : target_->references()) {
+            known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
+        }
+    } else if (phase_ == Phase::open) {
+        reopen(); // where it stands now
+    }
+    const std::lock_guard lock(mutex_);
+    known_.axes = homed ? known | search : known_.axes | (known & ~search);
+    known_.homing = homed ? HomingPhase::done : HomingPhase::failed;
+    known_.sentence = known_.alarm == Alarm::none ? why : known_.sentence; // the controller says it
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+//
+// A machine on lines that is operated: where it stands is what its lines have counted, whatever happens to it.
+#include "served_lines.hpp"
+#include "support/catch.hpp"
+#include "support/random_path.hpp"
+#include "support/rounds.hpp"
+
+#include <fmt/format.h>
+
+using namespace splinefeed;
+using namespace splinefeed_test;
+
+namespace {
+
+class Operated : public ServedLines {
+public:
+    using ServedLines::ServedLines;
+
+    void wait(int ms) {
+        for (; ms > 0; --ms) {
+            tick();
+        }
+    }
+    template <class Condition>
+    [[nodiscard]] bool comes(const Condition& condition, int most_ms = 20'000) {
+        for (; most_ms > 0 && !condition(); --most_ms) {
+            tick();
+        }
+        return condition();
+    }
+    [[nodiscard]] bool says(const std::string& what) {
+        return comes([&] { return text.find(what) != std::string::npos; });
+    }
+    /// Sends lines, and waits until all is done.
+    void go(const std::string& program) {
+        text.clear();
+        send(program);
+        tick();
+        INFO(program << ": " << text);
+        REQUIRE(comes([this] { return rests(); }));
+        CHECK(text.find("error") == std::string::npos);
+    }
+    [[nodiscard]] bool rests() {
+        const ControllerState state = controller->state();
+        return served->stands() && (state == ControllerState::idle || state == ControllerState::alarm ||
+                                    ((state == ControllerState::hold || state == ControllerState::door)));
+    }
+    /// Begins a long move, and waits until it has full speed.
+    void begin_move() {
+        go("G90G53G0X10Y10\n");
+        send("G1X290Y150F6000\n");
+        REQUIRE(comes([this] { return mm(0) > 40.0; }));
+    }
+    [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns()) * 1e-6; }
+    /// What is told of each axis is what was counted.
+    void check_place() {
+        for (const host::RunTarget::AxisPlace& at : served->places()) {
+            const double told = at.mm.value_or(-1e6) * 320.0;
+            INFO("axis " << at.axis << ": told " << told << ", counted " << counts()[at.axis]);
+            CHECK(std::fabs(told - static_cast<double>(counts()[at.axis])) <= 0.5 + 1e-6);
+        }
+    }
+    void check_still() {
+        const std::size_t rows = lines->rows().size();
+        const std::uint64_t last_ns = last_step_ns();
+        wait(500);
+        CHECK(last_step_ns() == last_ns);
+        CHECK(lines->rows().size() - rows < 10); // the drives may have been switched
+    }
+    /// Behind an alarm.
+    void unlock() {
+        send("\x18");
+        wait(50);
+        text.clear();
+        send("$X\n");
+        REQUIRE(says("ok"));
+    }
+};
+
+} // namespace
+
+TEST_CASE("places between two counts, resets and jogs lose no step", "[serve]") {
+    Operated machine;
+    RandomPath random(4711);
+    for (int n = 0; n < rounds(60, 2000); ++n) {
+        const double x = (2.0 * random.below(4000) + 1.0) / 640.0; // right in the middle between two counts
+        const double y = random.between(0.0, 20.0);
+        machine.send(fmt::format("G90 G1 X{:.7f} Y{:.5f} F6000\n", x, y));
+        if (random.below(3) == 0) {
+            machine.wait(static_cast<int>(random.below(400)));
+            machine.send(random.below(2) == 0 ? "\x18" : "!");
+            machine.wait(400);
+            machine.send("\x18");
+        }
+        REQUIRE(machine.comes([&] { return machine.rests(); }));
+        machine.check_place();
+        machine.send(fmt::format("$J=G91 X{:.4f} F6000\n", random.between(-2.0, 2.0)));
+        machine.wait(static_cast<int>(random.below(150)));
+        machine.send("\x85");
+        REQUIRE(machine.comes([&] { return machine.rests(); }));
+        machine.check_place();
+    }
+    machine.go("G90 G0 X0 Y0\n");
+    machine.check_place();
+    CHECK(machine.counts() == PerAxis<std::int64_t>{});
+}
+
+TEST_CASE("stops by wire: on the path, no step after the standstill, and none is lost", "[serve]") {
+    struct Way {
+        const char* name;
+        const char* bytes;
+        double most_ms; ///< from the byte to the last step: 90 ms of motion in the port, and the braking
+    };
+    constexpr std::array ways{Way{"!", "!", 220.0},       Way{"0x18", "\x18", 220.0},       Way{"0x19", "\x19", 220.0},
+                              Way{"0x84", "\x84", 220.0}, Way{"0x18 twice", "\x18", 140.0}, Way{"it goes", "", 220.0}};
+    Operated machine;
+    RandomPath random(2211);
+    std::array<double, ways.size()> longest{};
+    for (int n = 0; n < rounds(static_cast<int>(4 * ways.size()), 300); ++n) {
+        const std::size_t w = static_cast<std::size_t>(n) % ways.size();
+        const Way& way = ways[w];
+        CAPTURE(n, way.name);
+        machine.begin_move();
+        machine.wait(static_cast<int>(random.below(1500)));
+        const double asked_ms = machine.now_ms();
+        if (way.bytes[0] == '\0') {
+            machine.controller->disconnect();
+        }
+        machine.send(way.bytes);
+        if (way.most_ms < 200.0) {
+            machine.wait(10);
+            machine.send("\x18");
+        }
+        machine.wait(300);
+        REQUIRE(machine.rests());
+        const double took_ms = static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms;
+        CHECK(took_ms < way.most_ms);
+        longest[w] = std::max(longest[w], took_ms);
+        CHECK(std::fabs((machine.mm(1) - 10.0) - 0.5 * (machine.mm(0) - 10.0)) < 0.005); // a count
+        machine.check_still();
+        machine.check_place();
+        machine.controller->connect();
+        machine.unlock();
+    }
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+        fmt::print("  {:10} standstill after {:.0f} ms at most\n", ways[w].name, longest[w]);
+    }
+    machine.go("G90 G53 G0 X0 Y0\n");
+    CHECK(machine.counts() == PerAxis<std::int64_t>{});
+}
+
+TEST_CASE("a jog that is cancelled, and one whose sender is silent, end on their way", "[serve]") {
+    Operated machine;
+    const bool silent = GENERATE(false, true);
+    machine.send("$J=X200Y100F6000\n");
+    machine.wait(600);
+    const double asked_ms = machine.now_ms();
+    if (!silent) {
+        machine.send("\x85");
+    }
+    machine.wait(1000);
+    CHECK(machine.controller->state() == ControllerState::idle);
+    CHECK(static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms < (silent ? 620.0 : 220.0));
+    machine.check_still();
+    machine.check_place();
+    CHECK(std::fabs(machine.mm(1) - 0.5 * machine.mm(0)) < 0.005);
+}
+
+TEST_CASE("a server that stands still: the axes come to rest on the path, and go on", "[serve]") {
+    Operated machine;
+    machine.begin_move();
+    machine.clock.sleep_us(3'000'000); // no plan comes
+    const std::uint64_t last_ns = machine.last_step_ns();
+    machine.clock.sleep_us(1'000'000);
+    CHECK(machine.last_step_ns() == last_ns);
+    CHECK(std::fabs((machine.mm(1) - 10.0) - 0.5 * (machine.mm(0) - 10.0)) < 0.005);
+    REQUIRE(machine.comes([&] { return machine.rests(); }));
+    CHECK(machine.mm(0) == 290.0);
+    machine.check_place();
+    CHECK(machine.text.find("ALARM") == std::string::npos);
+}
+
+TEST_CASE("the e-stop acts whatever the machine does, and only a reset behind it ends that", "[serve]") {
+    Operated machine;
+    const int when = GENERATE(0, 1, 2, 3, 4, 5, 6);
+    CAPTURE(when);
+    switch (when) {
+    case 0: machine.wait(20); break;                                           // nothing was moved yet
+    case 1: machine.begin_move(); break;                                       // it moves
+    case 2: machine.go("G0 X10\n"); break;                                     // it stands, with drives that are on
+    case 3: machine.begin_move(), machine.send("!"), machine.wait(400); break; // it is held
+    case 4: machine.send("$H\n"), machine.wait(500); break;                    // it homes
+    case 5:                                                                    // a limit switch has stopped it
+        machine.begin_move();
+        machine.switch_mm[0] = 1000.0;
+        REQUIRE(machine.says("ALARM:1"));
+        machine.wait(300);
+        break;
+    case 6: machine.begin_move(), machine.clock.sleep_us(20'000); break; // the server does nothing
+    }
+    const std::uint64_t pressed_ns = machine.clock.now_ns();
+    machine.press(ServedLines::e_stop, true);
+    machine.clock.sleep_us(1000);
+    CHECK_FALSE(machine.lines->enabled());
+    const std::uint64_t last_ns = machine.last_step_ns();
+    CHECK((last_ns == 0 || last_ns < pressed_ns + 600'000));
+    REQUIRE(machine.says("ALARM:10"));
+    machine.wait(1500);
+    CHECK(machine.last_step_ns() == last_ns);
+    machine.text.clear();
+    machine.send("\x18"); // it is still pressed
+    REQUIRE(machine.says("ALARM:10"));
+    machine.send("$X\n");
+    REQUIRE(machine.says("error:"));
+    machine.press(ServedLines::e_stop, false);
+    machine.switch_mm[0] = -2.0;
+    machine.carriage();
+    machine.wait(500);
+    CHECK_FALSE(machine.lines->enabled());
+    machine.text.clear();
+    machine.send("$X\n");
+    REQUIRE(machine.says("error:")); // not without a reset
+    machine.send("\x18");
+    REQUIRE(machine.says("to unlock"));
+    CHECK(machine.last_step_ns() == last_ns);
+    CHECK((when == 0 || !machine.served->read().known));
+    CHECK_FALSE(machine.lines->enabled());
+    machine.text.clear();
+    machine.send("$X\n");
+    REQUIRE(machine.says("ok"));
+    const PerAxis<std::int64_t> before = machine.counts();
+    machine.go("G91 G0 Y3\n");
+    CHECK(machine.counts()[1] - before[1] == 960);
+    CHECK(machine.text.find("ALARM") == std::string::npos);
+}
+
+TEST_CASE("a limit switch holds on the path, and its axis may leave it, not go on", "[serve]") {
+    Operated machine;
+    machine.begin_move();
+    machine.switch_mm[0] = 1000.0; // x acts now, wherever it is
+    REQUIRE(machine.says("ALARM:1\r"));
+    CHECK(machine.text.find("the limit of axis x (line 0) acts: reset, unlock by $X, and jog away from it") !=
+          std::string::npos);
+    machine.wait(300);
+    CHECK(std::fabs((machine.mm(1) - 10.0) - 0.5 * (machine.mm(0) - 10.0)) < 0.005);
+    machine.check_still();
+    machine.check_place();
+    CHECK(machine.lines->enabled());
+    const double at_mm = machine.mm(0);
+    machine.text.clear();
+    machine.send("$X\n");
+    REQUIRE(machine.says("error:9"));
+    machine.unlock();
+    CHECK(machine.served->read().known);
+    CHECK((machine.served->read().inputs & 1U) != 0);
+    SECTION("further the same way is refused, and moves nothing") {
+        const PerAxis<std::int64_t> before = machine.counts();
+        machine.send("$J=G91X1F600\n");
+        REQUIRE(machine.says("still acts: move away from it"));
+        machine.wait(300);
+        CHECK(machine.counts() == before);
+        machine.unlock();
+        machine.go("$J=G91X-1F600\n");
+        CHECK(machine.counts()[0] == before[0] - 320);
+        machine.check_place();
+    }
+    SECTION("the other axes move, and it leaves; then the switch stops it again") {
+        machine.go("$J=G91Y-5F6000\n");
+        machine.switch_mm[0] = -2.0;
+        machine.go("$J=G91X-5F6000\n");
+        CHECK(machine.mm(0) == Approx(at_mm - 5.0).margin(0.004));
+        CHECK(machine.text.find("ALARM") == std::string::npos);
+        machine.send("$J=G91X-20F600\n");
+        machine.wait(200);
+        machine.switch_mm[0] = 1000.0;
+        REQUIRE(machine.says("ALARM:1"));
+        machine.wait(300);
+        machine.check_place();
+    }
+    SECTION("$H searches behind it") {
+        machine.switch_mm[0] = -2.0;
+        machine.carriage();
+        machine.go("$H\n");
+        CHECK(machine.mm(0) == Approx(0.0).margin(0.004));
+    }
+}
+
+TEST_CASE("a limit switch or a drive that faults while the machine stands is an alarm", "[serve]") {
+    Operated machine;
+    const bool moved = GENERATE(false, true);
+    const bool drive = GENERATE(false, true);
+    if (moved) {
+        machine.go("G0 X10\n");
+    }
+    const std::size_t input = drive ? ServedLines::drive_fault : ServedLines::limit_of(1);
+    if (drive) {
+        machine.press(input, true);
+    } else {
+        machine.switch_mm[1] = 1000.0;
+        machine.carriage();
+    }
+    REQUIRE(machine.says(drive ? "ALARM:17" : "ALARM:1\r"));
+    machine.text.clear();
+    machine.send("\x18");
+    if (drive) {
+        REQUIRE(machine.says("ALARM:17"));
+        machine.press(input, false);
+        machine.wait(20);
+    }
+    machine.unlock();
+    machine.go("G91 G0 X1 Y1\n");
+    CHECK(machine.served->read().known);
+    machine.check_place();
+    CHECK(machine.counts()[0] == (moved ? 3520 : 320));
+}
+
+TEST_CASE("homing finds its switches from anywhere, and a reset stops it at once", "[serve]") {
+    Operated machine(served_map, 0);
+    machine.at_start_mm = {30.0, 12.0, -20.0};
+    CHECK_FALSE(machine.served->read().known);
+    machine.wait(20);
+    CHECK(machine.controller->state() == ControllerState::alarm);
+    SECTION("all, then one") {
+        machine.go("$H\n");
+        for (unsigned k = 0; k < 3; ++k) {
+            CHECK(machine.mm(k) == Approx(0.0).margin(0.004));
+        }
+        machine.go("G0 X20 Y10 Z-5\n");
+        machine.go("$HY\n");
+        CHECK(machine.served->places()[1].mm.value() == Approx(0.0).margin(0.004));
+        CHECK(machine.served->places()[0].mm.value() == 20.0);
+        CHECK(machine.mm(0) == Approx(20.0).margin(0.004));
+        CHECK(machine.mm(1) == Approx(0.0).margin(0.004));
+    }
+    SECTION("a reset") {
+        machine.send("$H\n");
+        machine.wait(400);
+        const double asked_ms = machine.now_ms();
+        machine.send("\x18");
+        REQUIRE(machine.says("ALARM:6"));
+        machine.wait(400);
+        CHECK(static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms < 120.0);
+        machine.check_still();
+        CHECK_FALSE(machine.served->read().known);
+        machine.unlock();
+        machine.go("$H\n");
+        CHECK(machine.mm(2) == Approx(0.0).margin(0.004));
+    }
+    SECTION("a switch that is not there") {
+        machine.switch_mm[2] = 1000.0;
+        machine.send("$HZ\n");
+        REQUIRE(machine.says("ALARM:9"));
+        CHECK(machine.text.find("line 2) does not act within 96 mm") != std::string::npos);
+        CHECK_FALSE(machine.served->read().known);
+    }
+}
+
+TEST_CASE("sleep switches the drives off, and the place is lost; the end does as the machine file says", "[serve]") {
+    Operated machine;
+    machine.go("G0 X10\n");
+    machine.text.clear();
+    machine.send("$SLP\n");
+    machine.wait(50);
+    CHECK_FALSE(machine.lines->enabled());
+    CHECK_FALSE(machine.served->places()[0].mm.has_value());
+    machine.unlock();
+    machine.go("G91 G0 X1\n");
+    CHECK(machine.lines->enabled());
+    machine.check_place();
+    CHECK(machine.counts()[0] == 3520);
+    CHECK(machine.served->finish().empty());
+    CHECK_FALSE(machine.lines->enabled());
+}
+
+TEST_CASE("what a map lacks is refused with the file and its key", "[serve]") {
+    std::string map = served_map;
+    for (const char axis : {'x', 'y', 'z'}) {
+        const std::size_t at = map.find("[home." + std::string(1, axis));
+        map.erase(at, map.find("[[input]]", at) - at);
+    }
+    for (std::size_t at = 0; (at = map.find("[[input]]\nrole = \"home\"")) != std::string::npos;) {
+        map.erase(at, map.find("[[input]]", at + 9) - at);
+    }
+    map.erase(map.rfind("[[input]]"));
+    Operated machine(map);
+    machine.send("$H\nG38.2 Z-5 F100\n");
+    REQUIRE(machine.says("error:20"));
+    CHECK(machine.text ==
+          "[MSG:no home switch of x, y, z: add [home.x] to lines.toml, and an [[input]] with role = \"home\"]\r\n"
+          "error:5\r\n[MSG:The machine has no probe]\r\nerror:20\r\n");
+    CHECK(machine.settings.has_limits);
+}
