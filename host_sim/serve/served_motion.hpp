@@ -6,6 +6,7 @@
 #include "host_sim/planning/planned_trajectory.hpp"
 
 #include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/s0_program/spline_points.hpp"
 
 #include <optional>
 #include <vector>
@@ -17,7 +18,7 @@ public:
     /// Throws InputError where the machine's limits do not go together. `settings` must outlive it.
     ServedMotion(const MachineDescription& machine, const ControllerSettings& settings)
         : limits_(machine_limits<Fixed>(machine)), window_(PlannerChoice{}.window_cells),
-          motion_(settings, limits_, planner(), rules_cast<Fixed>(machine.tolerances.rules)) {}
+          motion_(settings, limits_, planner(), rules_cast<Fixed>(machine.tolerances.rules), &points_) {}
     ServedMotion(const ServedMotion&) = delete;
     ServedMotion& operator=(const ServedMotion&) = delete;
 
@@ -36,6 +37,7 @@ private:
     std::vector<PlannedCell<Fixed>> window_;
     std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two
     std::optional<JerkMemory<Fixed, double>> jerk_;
+    SplinePoints<Fixed> points_;
     ScalarMotion<Fixed> motion_;
 };
 

@@ -109,6 +109,19 @@ TEST_CASE("however often its state is asked for, lines are executed", "[controll
     CHECK(text.substr(text.size() - 4) == "ok\r\n");
 }
 
+TEST_CASE("more moves than a path holds, behind one that leaves the travel, end in the alarm", "[controller]") {
+    ControlledTool<double> tool;
+    tool.send(GENERATE("G0 X50\nG2 X40 I-5 F6000\nG91\n", "G0 X50 Y5\nG5.5 X60 Y0 F6000\nX70 Y0\nX80 Y5\nG91\n"));
+    for (int i = 0; i < 20; ++i) {
+        tool.send("G3 X-5 Y1 R9\n");
+    }
+    for (int ms = 0; ms < 3000; ++ms) {
+        tool.tick();
+    }
+    CHECK(tool.text.find("ALARM:2") != std::string::npos);
+    CHECK(tool.controller->state() == ControllerState::alarm);
+}
+
 TEST_CASE("the controller answers likewise where a call begins one line and plans little", "[controller]") {
     run_cases<Fixed>(true);
 }

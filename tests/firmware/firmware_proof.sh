@@ -41,10 +41,12 @@ if [[ $cpu == cortex-m4f ]]; then
     frame=104
 fi
 if [[ $cpu != cortex-m0 ]]; then
+    points=0
+    if arm-none-eabi-nm "$image" | grep -q SplinePoints; then points=1; fi
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
         bound=$(find "$core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v jerk=$jerk -v operated=$operated -v root=$root -f tests/arm/stack.awk {} +)
+            -exec awk -v scalar=$scalar -v jerk=$jerk -v operated=$operated -v points="$points" -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done

@@ -21,6 +21,7 @@ from sender import Failed
 
 # The board has no home switches and no probe, steps of 12.5 um, and numbers of its own.
 WITHOUT = {"home", "probe", "fine", "numbers"}
+WITHOUT_POINTS = {"lm3s6965"}  # no memory for curves through points
 GREETING = "Grbl 1.1h ['$' for help]"
 NUMBERS = """$0=50 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $10=3 $11=0.010 $12=0.002 $13=0 $20=1 $21=1 $22=0 $23=0 $24=0.000 $25=0.000 $26=0 $27=0.000
 $30=1000.000 $31=0.000 $32=0 $100=80.000 $101=80.000 $102=400.000 $110=6000.000 $111=6000.000 $112=1200.000
@@ -28,6 +29,7 @@ $120=1000.000 $121=1000.000 $122=200.000 $130=300.000 $131=200.000 $132=80.000 o
 # Corners, an arc, a chain of short lines, a reversal.
 PROGRAM = ["G21 G90 G64 P0.02", "G1 X20 F3000", "Y10", "G2 X30 Y20 I10 J0", "G1 X32 Y15 Z-1",
            *(f"X{32 + 0.5 * i:.3f} Y{15 + 0.04 * i * i:.3f}" for i in range(1, 25)), "G61 X40 Z-3 F1200", "G0 X5 Y5", "Z0"]
+POINTS = ["G21 G90 G64 P0.02 G5.5 X10 Y6 Z-1 F1800", *(f"X{10 + 3 * i} Y{6 + i % 3} Z{-1 - 0.1 * i:.1f}" for i in range(1, 25)), "G80"]
 
 
 class Bench:
@@ -67,9 +69,11 @@ def steps_made(levels, up=(0, 0, 0)):
     return steps_of([(*LINES[change.pin], change.level) for change in levels if change.pin in LINES], up)[0]
 
 
-def conforms(bench):
+def conforms(bench, part="", least=50):
     run, failed = 0, []
-    for name, lines in cases(WITHOUT):
+    for name, lines in cases(WITHOUT | ({"points"} if bench.name in WITHOUT_POINTS else set())):
+        if part not in name:
+            continue
         run, at = run + 1, 0
         try:
             bench.reset()
@@ -79,8 +83,12 @@ def conforms(bench):
             check(not bench.sender.text, f"more is said: {bench.sender.text!r}")
         except (Failed, BoardFailed) as failure:
             failed.append(f"{name}, line {at}: {failure}")
-    check(run >= 50 and not failed, f"{run} cases, failed: {failed}")
+    check(run >= least and not failed, f"{run} cases, failed: {failed}")
     return f"{run} cases of the list"
+
+
+def streams_points(bench):
+    return travels(bench, POINTS) + "; " + conforms(bench, "curve through", 6)
 
 
 def tells_its_numbers(bench):
@@ -89,13 +97,15 @@ def tells_its_numbers(bench):
     bench.ask("$I\n", f"[VER:1.1h.*:splinefeed * {bench.name}]"[:10] + "*", "[OPT:V,100,1024]", "ok")
     bench.ask("$110=5000\n", "[MSG:$110 is max_velocity_mm_s in the machine file]", "error:53")
     bench.ask("$H\n", "[MSG:No axis of the machine file has a home]", "error:5")
+    if bench.name in WITHOUT_POINTS:
+        bench.ask("G5.5 X1 F100\n", "[MSG:Error: 1:1 this controller has no memory for curves through points*", "error:20")
     return "its settings, which nothing changes"
 
 
-def planned_steps(bench):
+def planned_steps(bench, lines):
     """What the tool makes of the program, on the machine of the same numbers."""
     program, edges = f"{bench.folder}/program.ngc", f"{bench.folder}/edges.csv"
-    pathlib.Path(program).write_text("\n".join([*PROGRAM, "M2", ""]))
+    pathlib.Path(program).write_text("\n".join([*lines, "M2", ""]))
     subprocess.run([bench.tool, "run", program, "-m", MACHINE, "--dialect", "grbl", "--window", str(bench.board.kind.window), "--scalar",
                     bench.board.kind.scalar, "--edges", edges], check=True, capture_output=True)
     with open(edges, encoding="utf-8") as rows:
@@ -103,18 +113,18 @@ def planned_steps(bench):
     return steps_of(levels, [0, 0, 0])[0]
 
 
-def travels(bench):
+def travels(bench, lines=PROGRAM):
     """A program: the steps of each axis are those of the tool's plan."""
     bench.reset()
-    bench.sender.begin(PROGRAM)
-    bench.expect(*["ok"] * (1 + len(PROGRAM)))
+    bench.sender.begin(lines)
+    bench.expect(*["ok"] * (1 + len(lines)))
     bench.sender.until("Idle")
-    steps, planned = steps_made(bench.levels()), planned_steps(bench)
+    steps, planned = steps_made(bench.levels()), planned_steps(bench, lines)
     check(bench.counts() == counts_after((0, 0, 0), steps), f"it says {bench.counts()}, its pins went to {counts_after((0, 0, 0), steps)}")
     for axis in range(3):
         check(of_axis(axis, steps) == of_axis(axis, planned), f"other steps of {AXES[axis]}: {len(of_axis(axis, steps))}, "
                                                               f"planned {len(of_axis(axis, planned))}")
-    return f"a program of {len(PROGRAM)} lines, {len(steps)} steps, as planned"
+    return f"a program of {len(lines)} lines, {len(steps)} steps, as planned"
 
 
 def reset_at_rest(bench):
@@ -211,8 +221,7 @@ def main():
         bench = Bench(os.path.abspath(tool), image, machine, folder)
         try:
             tests = [tells_its_numbers, travels, reset_at_rest, switched_off, limited, stops]
-            if machine == "lm3s6965evb":  # the code of the other board is the same
-                tests.append(conforms)
+            tests.append(conforms if machine == "lm3s6965evb" else streams_points)  # the other code of the boards is the same
             for test in tests:
                 print(test(bench), flush=True)
         except (BoardFailed, Failed) as problem:

@@ -251,5 +251,5 @@ TEST_CASE("grbl's words", "[program][interpreter]") {
 }
 
 TEST_CASE("memory of an interpreter", "[program][interpreter]") {
-    CHECK(sizeof(Interpreter<Fixed>) <= 4712);
+    CHECK(sizeof(Interpreter<Fixed>) <= 4720);
 }

@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
+#include "splinefeed/s0_program/spline_points.hpp"
 
 #include "support/catch.hpp"
 
@@ -133,7 +134,7 @@ template <Scalar S>
 class GcodeRun {
 public:
     explicit GcodeRun(ProgramSettings settings = six_axes())
-        : expression_(table_), interpreter_((settings.tools = &tools_, settings), &expression_) {
+        : expression_(table_), interpreter_((settings.tools = &tools_, settings), &expression_, &points_) {
         interpreter_.start({});
     }
 
@@ -192,6 +193,7 @@ private:
     MapTable table_;
     TenTools tools_;
     Expression expression_;
+    SplinePoints<S> points_;
     Interpreter<S> interpreter_;
     std::vector<std::string> lines_;
     std::vector<ProgramItem<S>> items_;

@@ -9,6 +9,7 @@
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/controller/controller.hpp"
 #include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/s0_program/spline_points.hpp"
 
 #include <cmath>
 #include <deque>
@@ -194,7 +195,8 @@ public:
     ControlledTool()
         : settings(settings_of_machine_tool()), machine(settings), limits_(*MotionLimits<S>::make(settings.machine)),
           window_(256), planner_(window_) {
-        motion_ = std::make_unique<ScalarMotion<S>>(settings, limits_, planner_);
+        motion_ = std::make_unique<ScalarMotion<S>>(settings, limits_, planner_,
+                                                    rules_cast<S>(path_rules(MachineSettings{})), &points_);
         controller = std::make_unique<Controller>(settings, *motion_, machine, Controller::Memory{lines_, answers_});
     }
 
@@ -226,6 +228,7 @@ private:
     MotionLimits<S> limits_;
     std::vector<PlannedCell<S>> window_;
     AccelerationPlanner<S> planner_;
+    SplinePoints<S> points_;
     std::unique_ptr<ScalarMotion<S>> motion_;
     std::array<char, 4096> lines_{};
     std::array<char, 16384> answers_{};

@@ -12,6 +12,7 @@
 #include "splinefeed/base/slot.hpp"
 #include "splinefeed/controller/controller.hpp"
 #include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/s0_program/spline_points.hpp"
 
 namespace firmware {
 
@@ -31,6 +32,18 @@ splinefeed::Slot<splinefeed::ScalarMotion<Real>> motion;
 splinefeed::Slot<Controller> controller;
 std::array<char, operator_settings.receive_bytes> lines_memory;
 std::array<char, Controller::least_answers> answers_memory;
+
+/// The memory of curves through points, on a board that has some for it.
+template <bool has_it>
+splinefeed::PointCurve<Real>* curve_memory() noexcept {
+    if constexpr (has_it) {
+        static splinefeed::Slot<splinefeed::SplinePoints<Real>> points;
+        return &points.build();
+    } else {
+        return nullptr;
+    }
+}
+
 std::atomic<bool> estop; // as the last tick read it
 std::atomic<bool> limit;
 
@@ -108,7 +121,8 @@ int main() {
     Steps& generator = steps.build(parts.build(), lookahead);
     line.build();
     stepper.build(generator);
-    motion.build(operator_settings, *limits, planner.build(window.build()), path_rules);
+    motion.build(operator_settings, *limits, planner.build(window.build()), path_rules,
+                 curve_memory<board::curves_through_points>());
     controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
     board::start_timer();
     board::start_watchdog();

@@ -123,7 +123,7 @@ private:
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;
     [[nodiscard]] bool finish_home() noexcept;
-    [[nodiscard]] bool is_late(bool dry) const noexcept;
+    [[nodiscard]] Supply supply(bool dry) const noexcept;
     void watch() noexcept;
 
     // controller_endings.cpp

@@ -28,7 +28,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
         if (quick_ || task_ == Task::home) {
             return Pull::starved;
         }
-        const Pull pull = motion_->next(out, is_late(dry));
+        const Pull pull = motion_->next(out, supply(dry));
         ProgramEvent event;
         while (!held_ && !door_ && motion_->take_event(event)) {
             carry_out(event);
@@ -51,16 +51,19 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
     return Pull::starved;
 }
 
-// Whether the motion shall not wait for more lines.
-bool Controller::is_late(bool dry) const noexcept {
+// Whether the motion waits for more lines. A stop that is planned stays: what the machine needs early, because its ring
+// begins to fill, does not end a motion whose lines come.
+Supply Controller::supply(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
     if (waits || ending_ != Ending::none || rests_ || single_ || motion_->left_travel()) {
-        return true;
+        return Supply::pauses;
     }
-    if (!motion_->at_rest()) {
-        return dry && (lines_left_ > 0 || lines_.lines() == 0);
+    const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
+    if (motion_->at_rest()) {
+        return lines_.lines() == 0 && pauses ? Supply::pauses : Supply::flows;
     }
-    return lines_.lines() == 0 && now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
+    const bool takes_none = dry && (lines_left_ > 0 || lines_.lines() == 0);
+    return !takes_none ? Supply::flows : pauses ? Supply::pauses : Supply::late;
 }
 
 // What the machine itself says.
@@ -93,6 +96,9 @@ bool Controller::step() noexcept {
         return go_on();
     }
     if (lines_.lines() == 0 || lines_left_ == 0 || (tool_ && !lines_.begins("$"sv)) || waits_for_step()) {
+        return false;
+    }
+    if (motion_->pass_on() == LineProgress::full) { // of a curve that a pause of the input has ended
         return false;
     }
     --lines_left_;

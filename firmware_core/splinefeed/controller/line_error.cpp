@@ -39,6 +39,7 @@ struct LineErrorTable {
         {probe_too_short, LineError::bad_target},
         {position_out_of_range, LineError::bad_target},
         {move_too_long, LineError::bad_target},
+        {points_too_far, LineError::bad_target},
         {number_out_of_range, LineError::bad_range},
         {result_out_of_range, LineError::bad_range},
         {feed_out_of_range, LineError::bad_range},

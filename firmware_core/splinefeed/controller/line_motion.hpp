@@ -18,6 +18,13 @@ enum class LineProgress : std::uint8_t {
     waits, ///< the first one is for the controller: waiting() says what it is, and whether the machine has to stand
 };
 
+/// What comes behind the moves so far.
+enum class Supply : std::uint8_t {
+    flows,  ///< more moves, in time
+    late,   ///< more moves, but the machine cannot wait for them: it goes on along what is known, and may have to brake
+    pauses, ///< nothing for now: the last move, or curve, ends at rest
+};
+
 /// Steering is that of Trajectory.
 class LineMotion {
 public:
@@ -50,9 +57,8 @@ public:
     /// The oldest event whose place the motion has come to. false: there is none
     virtual bool take_event(ProgramEvent& out) noexcept = 0;
 
-    /// The next segment. @param late  the input pauses, and the machine cannot wait: the motion goes on to the end of
-    /// what is known, and stands there
-    virtual Pull next(FeedSegment& out, bool late) noexcept = 0;
+    /// The next segment.
+    virtual Pull next(FeedSegment& out, Supply supply) noexcept = 0;
     /// Plans ahead what the path has, so that it takes more moves. Returns whether it does so now, and did not before.
     virtual bool look_ahead() noexcept = 0;
     /// Whether all that is known has been delivered, to standstill.

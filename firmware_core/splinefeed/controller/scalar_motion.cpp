@@ -14,8 +14,9 @@ S percent(int value) noexcept {
 
 template <Scalar S>
 ScalarMotion<S>::ScalarMotion(const ControllerSettings& settings, const MotionLimits<S>& limits, Planner<S>& planner,
-                              const PathRules<S>& rules) noexcept
-    : settings_(&settings), limits_(&limits), planner_(&planner), rules_(rules), interpreter_(settings.program) {
+                              const PathRules<S>& rules, PointCurve<S>* points) noexcept
+    : settings_(&settings), limits_(&limits), planner_(&planner), rules_(rules),
+      interpreter_(settings.program, nullptr, points) {
     place({});
 }
 
@@ -64,6 +65,10 @@ void ScalarMotion<S>::set_overrides(int feed, int rapids) noexcept {
 template <Scalar S>
 bool ScalarMotion<S>::release(bool stops) noexcept {
     if (!holds_) {
+        return true;
+    }
+    if (left_travel()) { // the path gives nothing more, so it may never have room
+        holds_ = false;
         return true;
     }
     if (!path_->has_room()) {
@@ -155,7 +160,7 @@ LineProgress ScalarMotion<S>::pass_move() noexcept {
 // item_.
 template <Scalar S>
 LineProgress ScalarMotion<S>::pass_item() noexcept {
-    if (refused_) { // behind a move that the path does not take
+    if (left_travel()) { // behind a move that the path does not take, or give
         return LineProgress::done;
     }
     const bool at_once = is_due_at_once();
@@ -283,18 +288,31 @@ bool ScalarMotion<S>::look_ahead() noexcept {
     return full && path_->has_room();
 }
 
+// The input pauses: a curve ends in its last point, as far as the path has room for it, and a move at rest.
 template <Scalar S>
-Pull ScalarMotion<S>::next(FeedSegment& out, bool late) noexcept {
-    if (late) {
+void ScalarMotion<S>::let_go() noexcept {
+    interpreter_.end_curve();
+    if (interpreter_.has_curve() || (item_pending_ && item_.kind == ItemKind::move)) {
+        static_cast<void>(pass_on());
+    }
+    if (!interpreter_.has_curve()) {
         release(true);
     }
-    const UnderrunPolicy underrun = late ? UnderrunPolicy::drain : UnderrunPolicy::wait;
+}
+
+template <Scalar S>
+Pull ScalarMotion<S>::next(FeedSegment& out, Supply supply) noexcept {
+    const bool pauses = supply == Supply::pauses;
+    if (pauses) {
+        let_go();
+    }
+    const UnderrunPolicy underrun = supply == Supply::flows ? UnderrunPolicy::wait : UnderrunPolicy::drain;
     const Pull pull = trajectory_.next(out, underrun, settings_->work_a_call);
     if (pull == Pull::item) {
         moved_ = true;
         at_rest_ = out.ends_at_rest();
         reached_ = out.waypoint;
-    } else if (at_rest_ && !holds_ && late && pull != Pull::held && pull != Pull::busy) {
+    } else if (at_rest_ && !holds_ && pauses && pull != Pull::held && pull != Pull::busy) {
         exhausted_ = true;
         reached_ = pushed_;
     }

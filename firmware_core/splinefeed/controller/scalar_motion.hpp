@@ -17,9 +17,11 @@ template <Scalar S>
 class ScalarMotion final : public LineMotion {
 public:
     /// All arguments but the rules must outlive it. @param rules  path_rules() of the machine
+    /// @param points  for curves through points, G5.5; none: they are refused
     /// @pre Trajectory::make() accepts limits and planner
     ScalarMotion(const ControllerSettings& settings, const MotionLimits<S>& limits, Planner<S>& planner,
-                 const PathRules<S>& rules = rules_cast<S>(path_rules(MachineSettings{}))) noexcept;
+                 const PathRules<S>& rules = rules_cast<S>(path_rules(MachineSettings{})),
+                 PointCurve<S>* points = nullptr) noexcept;
 
     [[nodiscard]] BlockInterpreter& interpreter() noexcept override { return interpreter_; }
     LineProgress pass_on() noexcept override;
@@ -30,9 +32,11 @@ public:
     LineProgress pass_jog() noexcept override;
     bool take_event(ProgramEvent& out) noexcept override;
 
-    Pull next(FeedSegment& out, bool late) noexcept override;
+    Pull next(FeedSegment& out, Supply supply) noexcept override;
     bool look_ahead() noexcept override;
-    [[nodiscard]] bool exhausted() const noexcept override { return exhausted_ && !holds_; }
+    [[nodiscard]] bool exhausted() const noexcept override {
+        return exhausted_ && !holds_ && !interpreter_.has_curve();
+    }
     [[nodiscard]] bool at_rest() const noexcept override { return at_rest_; }
     [[nodiscard]] bool left_travel() const noexcept override {
         return refused_ || guard_->has_ended() || !trajectory_.status().ok();
@@ -59,6 +63,7 @@ private:
     LineProgress pass_item() noexcept;
     LineProgress pass_move() noexcept;
     bool release(bool stops) noexcept;
+    void let_go() noexcept;
     void take_move() noexcept;
     [[nodiscard]] bool leaves_travel(const PerAxis<Position>& place) const noexcept;
     void cut(PathElement<S>& element) const noexcept;

@@ -55,7 +55,7 @@ void BlockInterpreter::restart() noexcept {
     emitted_ = place_.machine;
 }
 
-// What is left of the block, and a NURBS that has not been ended.
+// What is left of the block, and a NURBS or a curve that has not been ended.
 void BlockInterpreter::drop_block() noexcept {
     nurbs_.abandon();
     cutter_.clear();
@@ -63,6 +63,7 @@ void BlockInterpreter::drop_block() noexcept {
     plan_.clear();
     stage_ = all_done;
     in_pieces_ = false;
+    curve_ = CurveState::none;
     discard_assignments();
 }
 
@@ -140,6 +141,7 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         status = execute_percent();
     } else if (status.ok() && kind == LineKind::homing) {
         any_block_ = true;
+        end_curve();
         plan_.manner = {};
         plan_homing(0);
         stage_ = 0;
@@ -169,6 +171,7 @@ BlockStatus BlockInterpreter::execute_percent() noexcept {
         return {status.error(), 1, 1};
     }
     cutter_.keep_plan();
+    end_curve();
     block_.clear();
     ended_ = true;
     stage_ = 0;
@@ -179,6 +182,7 @@ BlockStatus BlockInterpreter::end_of_input() noexcept {
     const ProgramStatus status = cutter_.plan_end();
     if (status.ok()) {
         cutter_.keep_plan();
+        end_curve();
     }
     return {status.error(), 0, 0};
 }
@@ -221,6 +225,9 @@ BlockStatus BlockInterpreter::execute() noexcept {
         return status;
     }
     cutter_.keep_plan();
+    if (!leaves_curve_open()) {
+        end_curve();
+    }
     any_block_ = true;
     stage_ = 0;
     return {};

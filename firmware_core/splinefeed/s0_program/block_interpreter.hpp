@@ -48,8 +48,14 @@ public:
     /// Executes a jog: a line with axis words and F, and of G words G20, G21, G53, G90 and G91. It is a straight move
     /// in PathMode::exact_path, and leaves no modes behind. Errors: as push(), and jog_word_unsuited.
     BlockStatus push_jog(std::string_view text, std::uint32_t line_number) noexcept;
-    /// The input has ended without M2: next() gives what cutter compensation holds back. Error: cutter_gouge.
+    /// The input has ended without M2: next() gives what cutter compensation and a curve hold back. Error:
+    /// cutter_gouge.
     BlockStatus end_of_input() noexcept;
+    /// The input pauses: the curve through points ends in its last point, and next() gives the rest of it. The next
+    /// point begins another one there. @pre next() has returned starved
+    void end_curve() noexcept { curve_ = curve_ == CurveState::open ? CurveState::ends : curve_; }
+    /// Whether a curve through points goes on, or has moves that next() gives.
+    [[nodiscard]] bool has_curve() const noexcept { return curve_ != CurveState::none; }
     /// After an error of push(), for whoever looks for further ones: the words that were understood take effect, and a
     /// feed stands in for one that is wrong or missing. The program goes on at the end of the line's move, which is not
     /// given. The text of the line must still be there.
@@ -68,7 +74,12 @@ public:
 
 protected:
     /// Whether the block has steps left, or may have.
-    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done || cutter_.gives() || surface_.gives(); }
+    [[nodiscard]] bool has_steps() const noexcept {
+        return stage_ != all_done || cutter_.gives() || surface_.gives() || gives_curve();
+    }
+    [[nodiscard]] bool gives_curve() const noexcept {
+        return curve_ == CurveState::gives || curve_ == CurveState::ends;
+    }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
@@ -149,6 +160,8 @@ private:
     BlockStatus plan_spline(const ModalState& before) noexcept;
     BlockStatus plan_nurbs() noexcept;
     BlockStatus end_nurbs() noexcept;
+    BlockStatus plan_point() noexcept;
+    [[nodiscard]] bool leaves_curve_open() noexcept;
     BlockStatus require_feed() const noexcept;
     BlockStatus find_end(AxisPoint& program, AxisPoint& machine) const noexcept;
     BlockStatus move_to(const AxisPoint& program, const AxisPoint& machine) noexcept;
@@ -170,8 +183,8 @@ private:
     [[nodiscard]] bool end_program() noexcept;
     [[nodiscard]] bool next_motion(ProgramStep& out, ProgramEvent& event) noexcept;
     void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
-    [[nodiscard]] bool next_of_thread(ProgramStep& out) noexcept; // thread_words.cpp
-    [[nodiscard]] bool next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept;
+    [[nodiscard]] bool next_of_thread(ProgramStep& out) noexcept;                   // thread_words.cpp
+    [[nodiscard]] bool next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept; // and this
     void turn_spindle(CycleStep how, Decimal speed, ProgramStep& out, ProgramEvent& event) const noexcept;
     [[nodiscard]] bool next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept;
 
@@ -205,7 +218,12 @@ private:
     bool ended_ = false;
 
 protected:
+    /// The curve through the points of G5.5, which Interpreter<S> makes.
+    enum class CurveState : std::uint8_t { none, open, gives, ends };
+
     bool in_pieces_ = false; // Interpreter<S> gives the last step in several items
+    bool takes_points_ = false;
+    CurveState curve_ = CurveState::none;
 };
 
 } // namespace splinefeed

@@ -11,7 +11,7 @@ namespace splinefeed {
 /// x, y and z, in this order, of the program.
 using SpacePoint = std::array<Decimal, 3>;
 
-enum class PlanKind : std::uint8_t { none, line, line_by_way, arc, bezier, cycle, nurbs, tap, thread };
+enum class PlanKind : std::uint8_t { none, line, line_by_way, arc, bezier, cycle, nurbs, point, tap, thread };
 
 /// An arc; its axis is a direction of the program's frame.
 struct ArcPlan {

@@ -308,6 +308,11 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         out.arc = &plan_.arc;
         plan_.kind = PlanKind::none;
         return true;
+    case PlanKind::point:
+        fill_move(out, plan_.to);
+        out.is_point = true;
+        plan_.kind = PlanKind::none;
+        return true;
     case PlanKind::bezier:
         fill_move(out, plan_.to);
         out.shape = MoveShape::bezier;
@@ -346,23 +351,6 @@ void BlockInterpreter::turn_spindle(CycleStep how, Decimal speed, ProgramStep& o
     event.kind = how == CycleStep::spindle_stop ? EventKind::spindle_stop
                  : clockwise                    ? EventKind::spindle_clockwise
                                                 : EventKind::spindle_counterclockwise;
-}
-
-// G33.1: in, the spindle turns back, out, it turns as before.
-bool BlockInterpreter::next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept {
-    switch (sub_step_) {
-    case 0: fill_move(out, plan_.way); return true;
-    case 1: turn_spindle(CycleStep::spindle_reverse, plan_.back_speed, out, event); break;
-    case 2:
-        plan_.manner.feed.raw =
-            product_quotient(plan_.manner.feed.raw, plan_.back_speed.raw, static_cast<std::uint64_t>(modal_.speed.raw))
-                .raw;
-        fill_move(out, plan_.to);
-        return true;
-    default: turn_spindle(CycleStep::spindle_start, modal_.speed, out, event); plan_.kind = PlanKind::none;
-    }
-    ++sub_step_;
-    return true;
 }
 
 bool BlockInterpreter::next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept {

@@ -35,6 +35,7 @@ struct CodeRows {
         Row{50, 51, motion, ProgramError::none, in_both},
         Row{52, 52, motion},
         Row{53, 53, non_modal},
+        Row{55, 55, motion, ProgramError::none, in_both}, // of no dialect: a curve through points
         Row{70, 80, lathe_diameter},
         Row{100, 100, non_modal, ProgramError::none, in_grbl},
         Row{170, 170, plane, ProgramError::none, in_both},

@@ -11,7 +11,7 @@ namespace splinefeed {
 enum class CodeGroup : std::uint8_t {
     // G
     non_modal,       ///< G4 G10 G28 G28.1 G30 G30.1 G52 G53 G92 to G92.3, G5.3
-    motion,          ///< G0 to G3, G5, G5.1, G5.2, G33, G33.1, G38.2 to G38.5, G73, G74, G76, G80 to G89
+    motion,          ///< G0 to G3, G5, G5.1, G5.2, G5.5, G33, G33.1, G38.2 to G38.5, G73, G74, G76, G80 to G89
     plane,           ///< G17 G18 G19
     distance,        ///< G90 G91
     centre_distance, ///< G90.1 G91.1

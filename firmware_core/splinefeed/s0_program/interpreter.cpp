@@ -47,13 +47,23 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
         fill_piece(out);
         return Pull::item;
     }
-    if (!has_steps()) {
-        return has_ended() ? Pull::finished : Pull::starved;
-    }
     ProgramStep step;
-    const Pull pull = next_step(step, out.event);
-    if (pull != Pull::item) {
-        return pull;
+    for (;;) {
+        if (gives_curve() && give_curve(out)) {
+            return Pull::item;
+        }
+        if (!has_steps()) {
+            return has_ended() ? Pull::finished : Pull::starved;
+        }
+        const Pull pull = next_step(step, out.event);
+        if (pull != Pull::item) {
+            return pull;
+        }
+        if (!step.is_point) {
+            break;
+        }
+        add_point(step);
+        step = {};
     }
     out.kind = step.kind;
     out.line = line();
@@ -79,8 +89,7 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
 }
 
 template <Scalar S>
-void Interpreter<S>::fill_manner(MoveKind move, ProgramItem<S>& out) const noexcept {
-    const MoveManner& how = manner();
+void Interpreter<S>::fill_manner(const MoveManner& how, MoveKind move, ProgramItem<S>& out) const noexcept {
     out.kind = ItemKind::move;
     out.line = line();
     out.move = move;
@@ -98,7 +107,7 @@ void Interpreter<S>::fill_manner(MoveKind move, ProgramItem<S>& out) const noexc
 
 template <Scalar S>
 void Interpreter<S>::fill_move(const ProgramStep& step, ProgramItem<S>& out) const noexcept {
-    fill_manner(step.move, out);
+    fill_manner(manner(), step.move, out);
     out.probe = step.probe;
     out.home_axes = step.home_axes;
     PathElement<S>& element = out.element;
@@ -173,7 +182,7 @@ void Interpreter<S>::fill_piece(ProgramItem<S>& out) noexcept {
     const bool first = !pieces_begun_;
     pieces_begun_ = true;
     if (!first) {
-        fill_manner(MoveKind::feed, out);
+        fill_manner(manner(), MoveKind::feed, out);
         out.stops_before = false;
     }
     PathElement<S>& element = out.element;
@@ -200,6 +209,36 @@ void Interpreter<S>::fill_piece(ProgramItem<S>& out) noexcept {
             in_pieces_ ? displaced(piece_end_[n], points[k][5], chord_unit_log2) : to_position(pieces_to_[n]);
     }
     element.to = piece_end_;
+}
+
+template <Scalar S>
+void Interpreter<S>::add_point(const ProgramStep& step) noexcept {
+    typename PointCurve<S>::Point point{{}, path_feed(step), manner().feed, line()};
+    PerAxis<Position> from{};
+    for (const unsigned k : indices(letters().count())) {
+        from[k] = to_position(step.from[k]);
+        point.to[k] = to_position(step.to[k]);
+    }
+    if (curve_ == CurveState::none) {
+        points_->begin(from, manner(), letters().count());
+    }
+    points_->add(point);
+    curve_ = CurveState::gives;
+}
+
+// The next move of the curve. false: there is none now
+template <Scalar S>
+bool Interpreter<S>::give_curve(ProgramItem<S>& out) noexcept {
+    if (curve_ == CurveState::ends) {
+        points_->finish();
+    }
+    fill_manner(points_->manner(), MoveKind::feed, out);
+    out.stops_before = false;
+    if (points_->next(out)) {
+        return true;
+    }
+    curve_ = curve_ == CurveState::ends ? CurveState::none : CurveState::open;
+    return false;
 }
 
 // How long the move is in x, y and z. [mm]

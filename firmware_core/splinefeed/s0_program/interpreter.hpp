@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s0_program/block_interpreter.hpp"
+#include "splinefeed/s0_program/point_curve.hpp"
 #include "splinefeed/s0_program/program_item.hpp"
 #include "splinefeed/s0_program/rational_pieces.hpp"
 
@@ -25,21 +26,29 @@ namespace splinefeed {
 template <Scalar S>
 class Interpreter : public BlockInterpreter {
 public:
-    using BlockInterpreter::BlockInterpreter;
+    /// @param points  for G5.5; none: it is refused. Both that it refers to must outlive this.
+    explicit Interpreter(const ProgramSettings& settings, WordEvaluator* evaluator = nullptr,
+                         PointCurve<S>* points = nullptr) noexcept
+        : BlockInterpreter(settings, evaluator), points_(points) {
+        takes_points_ = points != nullptr;
+    }
 
     /// The next item of the block. `starved`: push the next line; `finished`: the program has ended (M2, M30, the
     /// closing %), and push() does nothing more until restart(). Cost: about that of a few square roots for a move.
     Pull next(ProgramItem<S>& out) noexcept;
 
 private:
-    void fill_manner(MoveKind move, ProgramItem<S>& out) const noexcept;
+    void fill_manner(const MoveManner& how, MoveKind move, ProgramItem<S>& out) const noexcept;
     void fill_move(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
     void fill_arc(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
     void fill_bezier(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
     void fill_piece(ProgramItem<S>& out) noexcept;
+    void add_point(const ProgramStep& step) noexcept;
+    [[nodiscard]] bool give_curve(ProgramItem<S>& out) noexcept;
     [[nodiscard]] S path_feed(const ProgramStep& step) const noexcept;
     [[nodiscard]] S space_length(const ProgramStep& step) const noexcept;
 
+    PointCurve<S>* points_;
     RationalPieces<S> pieces_{};
     bool pieces_begun_ = false; // the next piece is not the first
     S pieces_feed_{};

@@ -13,7 +13,7 @@ bool is_feed_motion(std::int16_t motion) noexcept {
 }
 
 bool needs_one_speed(std::int16_t motion) noexcept {
-    return motion == 330 || motion == 331 || motion == 760 || taps(motion) || (motion >= 50 && motion <= 52);
+    return motion == 330 || motion == 331 || motion == 760 || taps(motion) || (motion >= 50 && motion <= 55);
 }
 
 } // namespace
@@ -185,6 +185,7 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     case 50:
     case 51: return plan_spline(before);
     case 52: return plan_nurbs();
+    case 55: return plan_point();
     case 382:
     case 383:
     case 384:

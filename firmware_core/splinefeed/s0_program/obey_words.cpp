@@ -49,6 +49,7 @@ void BlockInterpreter::obey_refused() noexcept {
     }
     plan_.clear();
     stage_ = all_done;
+    curve_ = CurveState::none; // its next point may be lost
     block_.clear();
 }
 

@@ -16,6 +16,7 @@ struct ProgramStep {
     bool stop_at_end = false;
     bool is_contour = false; // cutter compensation holds it back
     bool joined = false;     // it goes on with the direction and curvature of the step before it
+    bool is_point = false;   // of a curve: it is no move by itself
     std::uint32_t home_axes = 0;
     AxisPoint from{};
     AxisPoint to{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BlockInterpreter: G5, G5.1, G5.2 and G5.3.
+// BlockInterpreter: G5, G5.1, G5.2, G5.3 and G5.5.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
 #include "splinefeed/s0_program/decimal_text.hpp"
@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t other_axes = Block::bits("zabcuvw");
 constexpr Decimal longest_spline = Decimal::from_integer(65536);
+constexpr Decimal longest_leg = Decimal::from_integer(8192); // so that a path takes what a curve makes of it
 constexpr Decimal heaviest = Decimal::from_integer(1000000);
 
 // As far from `end` as a curve of the core needs for a direction: towards the first point that is elsewhere.
@@ -178,6 +179,44 @@ BlockStatus BlockInterpreter::end_nurbs() noexcept {
     place_ = {frame_.to_program(machine), machine};
     plan_.to = machine;
     return {};
+}
+
+BlockStatus BlockInterpreter::plan_point() noexcept {
+    if (!takes_points_) {
+        return block_.at(ProgramError::points_unsupported, CodeGroup::motion);
+    }
+    if (modal_.inverse_time) {
+        return block_.at(ProgramError::points_inverse_time, CodeGroup::motion);
+    }
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    for (int k = 0; k < letters_.count(); ++k) {
+        const Decimal way = machine[static_cast<unsigned>(k)] - place_.machine[static_cast<unsigned>(k)];
+        if (way > longest_leg || way < -longest_leg) {
+            return block_.at(ProgramError::points_too_far, has_axis(k) ? letters_.letter(k) : ' ');
+        }
+    }
+    plan_.kind = PlanKind::point;
+    return move_to(program, machine);
+}
+
+// Whether a curve through points goes on behind the block, which has been planned: it states a point, or modes that
+// have no place on the path.
+bool BlockInterpreter::leaves_curve_open() noexcept {
+    for (unsigned group = 0; group < code_groups; ++group) {
+        const auto code = static_cast<CodeGroup>(group);
+        const bool goes_on = code == CodeGroup::motion || code == CodeGroup::distance || code == CodeGroup::units ||
+                             code == CodeGroup::centre_distance || code == CodeGroup::feed_mode ||
+                             code == CodeGroup::plane || code == CodeGroup::retract;
+        if (block_.has(code) && !goes_on) {
+            return false;
+        }
+    }
+    const bool has_event = block_.has_any(Block::bits("st")) || block_.comment() != CommentKind::none;
+    return modal_.motion == 55 && !has_event && (plan_.kind == PlanKind::none || plan_.kind == PlanKind::point);
 }
 
 } // namespace splinefeed

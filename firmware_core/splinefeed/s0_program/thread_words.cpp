@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BlockInterpreter: G76.
+// BlockInterpreter: G76, and the steps of G33.1.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
 namespace splinefeed {
@@ -64,6 +64,23 @@ bool BlockInterpreter::next_of_thread(ProgramStep& out) noexcept {
     }
     fill_move(out, frame_.to_machine(at));
     out.stops_before = move.waits;
+    return true;
+}
+
+// G33.1: in, the spindle turns back, out, it turns as before.
+bool BlockInterpreter::next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept {
+    switch (sub_step_) {
+    case 0: fill_move(out, plan_.way); return true;
+    case 1: turn_spindle(CycleStep::spindle_reverse, plan_.back_speed, out, event); break;
+    case 2:
+        plan_.manner.feed.raw =
+            product_quotient(plan_.manner.feed.raw, plan_.back_speed.raw, static_cast<std::uint64_t>(modal_.speed.raw))
+                .raw;
+        fill_move(out, plan_.to);
+        return true;
+    default: turn_spindle(CycleStep::spindle_start, modal_.speed, out, event); plan_.kind = PlanKind::none;
+    }
+    ++sub_step_;
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include "host_sim/program/element_cast.hpp"
 
 #include "splinefeed/s0_program/interpreter.hpp"
+#include "splinefeed/s0_program/spline_points.hpp"
 
 namespace splinefeed::host {
 
@@ -13,7 +14,7 @@ template <Scalar S>
 class ScalarItems final : public ProgramItems {
 public:
     ScalarItems(const ProgramSettings& settings, Expression& expression, double max_feed_mm_s)
-        : interpreter_(settings, &expression), max_feed_mm_s_(from_double<S>(max_feed_mm_s)) {}
+        : interpreter_(settings, &expression, &points_), max_feed_mm_s_(from_double<S>(max_feed_mm_s)) {}
 
     [[nodiscard]] BlockInterpreter& interpreter() noexcept override { return interpreter_; }
 
@@ -49,6 +50,7 @@ private:
         }
     }
 
+    SplinePoints<S> points_;
     Interpreter<S> interpreter_;
     ProgramItem<S> item_;
     S max_feed_mm_s_;

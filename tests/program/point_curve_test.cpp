@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// G5.5: the moves are those of the spline through all points, solved at once, and what ends it.
+#include "support/gcode.hpp"
+
+#include <array>
+#include <cmath>
+
+using namespace splinefeed_test;
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+// A wave that climbs, with legs of 0.5 to 2 mm.
+std::vector<Point> wave(int count) {
+    std::vector<Point> points{{0.0, 0.0, 0.0}};
+    for (int i = 1; i <= count; ++i) {
+        const double x = points.back()[0] + 1.0 + 0.5 * std::sin(2.7 * i);
+        points.push_back({std::round(x * 1e4) / 1e4, std::round(3e4 * std::sin(x / 4.0)) / 1e4, 0.01 * i});
+    }
+    return points;
+}
+
+std::string line_of(const Point& point, const char* word = "") {
+    char text[80];
+    std::snprintf(text, sizeof text, "%sX%.4f Y%.4f Z%.4f", word, point[0], point[1], point[2]);
+    return text;
+}
+
+/// Slopes of the C2 cubics with chords as spans, natural at both ends: the system of all points at once.
+std::vector<Point> natural_slopes(const std::vector<Point>& p, std::vector<double>& spans) {
+    const std::size_t n = p.size();
+    spans.clear();
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        spans.push_back(std::hypot(p[i + 1][0] - p[i][0], p[i + 1][1] - p[i][1], p[i + 1][2] - p[i][2]));
+    }
+    std::vector<Point> slopes(n);
+    for (unsigned k = 0; k < 3; ++k) {
+        const auto chord = [&](std::size_t i) {
+            return (p[i + 1][k] - p[i][k]) / spans[i];
+        };
+        std::vector<double> gain(n);
+        std::vector<double> value(n);
+        for (std::size_t i = 0; i < n; ++i) { // a m[i-1] + b m[i] + c m[i+1] = r
+            const bool first = i == 0;
+            const bool last = i + 1 == n;
+            const double a = first ? 0.0 : last ? 1.0 : spans[i];
+            const double c = last ? 0.0 : first ? 1.0 : spans[i - 1];
+            const double b = 2.0 * (a + c);
+            const double r = first  ? 3.0 * chord(0)
+                             : last ? 3.0 * chord(i - 1)
+                                    : 3.0 * (spans[i] * chord(i - 1) + spans[i - 1] * chord(i));
+            const double pivot = first ? b : b - a * gain[i - 1];
+            gain[i] = c / pivot;
+            value[i] = (first ? r : r - a * value[i - 1]) / pivot;
+        }
+        for (std::size_t i = n; i-- > 0;) {
+            slopes[i][k] = value[i] - (i + 1 < n ? gain[i] * slopes[i + 1][k] : 0.0);
+        }
+    }
+    return slopes;
+}
+
+/// Bezier points of a move in mm, from `from`.
+template <Scalar S>
+std::array<Point, 4> points_of(const PathElement<S>& element, const Point& from) {
+    std::array<Point, 4> out{};
+    for (unsigned k = 0; k < 3; ++k) {
+        out[0][k] = from[k];
+        for (unsigned i = 1; i < 3; ++i) {
+            out[i][k] = from[k] + to_double(element.bezier.points[k][i]) / chord_units_per_mm;
+        }
+        out[3][k] = to_mm(element.to[k]);
+    }
+    return out;
+}
+
+/// Direction (0) and curvature vector (1) at an end of a cubic.
+std::array<Point, 2> bend_of(const std::array<Point, 4>& b, bool at_end) {
+    Point first{};
+    Point second{};
+    for (unsigned k = 0; k < 3; ++k) {
+        first[k] = at_end ? b[3][k] - b[2][k] : b[1][k] - b[0][k];
+        second[k] = at_end ? b[3][k] - 2.0 * b[2][k] + b[1][k] : b[2][k] - 2.0 * b[1][k] + b[0][k];
+    }
+    const double speed = std::hypot(first[0], first[1], first[2]);
+    double along = 0.0;
+    for (unsigned k = 0; k < 3; ++k) {
+        first[k] /= speed;
+        along += first[k] * second[k];
+    }
+    for (unsigned k = 0; k < 3; ++k) {
+        second[k] = (second[k] - along * first[k]) * 2.0 / 3.0 / (speed * speed);
+    }
+    return {first, second};
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("G5.5 is the G2 spline through its points", "[program][points]", double, float, Fixed) {
+    constexpr double tolerance = std::is_same_v<TestType, float> ? 1e-4 : 2e-6;
+    const std::vector<Point> points = wave(60);
+    GcodeRun<TestType> run;
+    std::string program = "G90 G21";
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        program += "\n" + line_of(points[i], i == 1 ? "G5.5 F600 " : i == 30 ? "F1200 " : "");
+    }
+    const std::vector<ProgramItem<TestType>> items = run.run(program + "\nG1 X500");
+    REQUIRE(items.size() == points.size());
+    std::vector<double> spans;
+    const std::vector<Point> slopes = natural_slopes(points, spans);
+    std::array<Point, 2> before{};
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const ProgramItem<TestType>& item = items[i];
+        CAPTURE(i);
+        REQUIRE(item.element.shape == MoveShape::bezier);
+        CHECK(item.line == i + 2);
+        CHECK(item.feed == Decimal::from_integer(i < 29 ? 600 : 1200));
+        CHECK(to_double(item.element.feed_mm_s) == Approx(i < 29 ? 10.0 : 20.0));
+        CHECK(item.element.joined == (i > 0));
+        const std::array<Point, 4> b = points_of(item.element, points[i]);
+        for (unsigned k = 0; k < 3; ++k) {
+            CHECK(item.element.to[k] == position_from_mm(points[i + 1][k])); // exactly
+            CHECK(b[1][k] == Approx(points[i][k] + slopes[i][k] * spans[i] / 3.0).margin(tolerance));
+            CHECK(b[2][k] == Approx(points[i + 1][k] - slopes[i + 1][k] * spans[i] / 3.0).margin(tolerance));
+        }
+        const std::array<Point, 2> start = bend_of(b, false);
+        for (unsigned k = 0; k < 3 && i > 0; ++k) {
+            CHECK(start[0][k] == Approx(before[0][k]).margin(tolerance));
+            CHECK(start[1][k] == Approx(before[1][k]).margin(20.0 * tolerance));
+        }
+        before = bend_of(b, true);
+    }
+    CHECK(items.back().element.shape == MoveShape::line);
+    CHECK_FALSE(items.back().element.joined);
+}
+
+TEST_CASE("what ends a curve through points, and what does not", "[program][points]") {
+    const auto [line, ends] = GENERATE(table<std::string, bool>({{"G1 X9", true},
+                                                                 {"G1", true},
+                                                                 {"G0 X9", true},
+                                                                 {"G80", true},
+                                                                 {"G4 P0", true},
+                                                                 {"M8", true},
+                                                                 {"M62 P1", true},
+                                                                 {"S500", true},
+                                                                 {"T2", true},
+                                                                 {"G54", true},
+                                                                 {"G92 X0", true},
+                                                                 {"G43.1 Z1", true},
+                                                                 {"G64 P1", true},
+                                                                 {"G28", true},
+                                                                 {"(MSG,here)", true},
+                                                                 {"X4 M8", true},
+                                                                 {"G5 X9 Y9 I1 J1 P1 Q1", true},
+                                                                 {"G5.2 X9 Y9", true},
+                                                                 {"M0", true},
+                                                                 {"M2", true},
+                                                                 {"%", true},
+                                                                 {"", false},
+                                                                 {"(here)", false},
+                                                                 {"N7", false},
+                                                                 {"G91", false},
+                                                                 {"G20 F9", false},
+                                                                 {"G17", false},
+                                                                 {"G94", false},
+                                                                 {"#1 = 5", false},
+                                                                 {"X4 Y1", false},
+                                                                 {"G5.5 X4", false}}));
+    CAPTURE(line);
+    GcodeRun<double> run;
+    run.run("G5.5 X1 Y0 F600\nX2 Y1\nX3 Y1");
+    CHECK(run.interpreter().has_curve());
+    CHECK(run.items().empty()); // of so few points nothing is known yet
+    const Decimal tolerance = run.interpreter().modal().tolerance_mm;
+    REQUIRE(run.push(line).ok());
+    const bool begins = line == "X4 M8"; // another one
+    CHECK(run.interpreter().has_curve() == (!ends || begins));
+    REQUIRE(run.items().size() >= (ends ? 3U : 0U));
+    if (ends) {
+        CHECK(run.item_text(2) == "feed bezier 3 1 0 degree 3");
+        CHECK(run.items()[2].element.tolerance_mm == Approx(number(tolerance))); // not that of the line
+        CHECK_FALSE(run.items()[0].element.joined);
+        CHECK(run.items()[2].element.joined);
+    } else {
+        CHECK(run.items().empty());
+        run.interpreter().end_curve(); // as where the input pauses
+        REQUIRE(run.push("").error == ProgramError::block_pending);
+    }
+}
+
+TEST_CASE("a refused line leaves a curve through points as it was", "[program][points]") {
+    GcodeRun<double> run;
+    run.run("G5.5 X1 Y0 F600\nX2 Y1");
+    for (const char* line : {"X3 P1", "G1 X2 Q7", "G93", "G41.1 D1 X9 Y9", "M999", "X3 Y1 X4"}) {
+        CAPTURE(line);
+        static_cast<void>(run.push(line));
+        CHECK(run.interpreter().has_curve());
+        CHECK(run.items().empty());
+    }
+    const std::vector<ProgramItem<double>> items = run.run("G94\nX3 Y1 F600\nG80");
+    CHECK(items.size() == 3);
+}
+
+TEST_CASE("corners, points that coincide, and legs of any length in a curve through points", "[program][points]") {
+    GcodeRun<double> run;
+    SECTION("a corner") {
+        const auto items = run.run("G5.5 X1 Y0 F600\nX2 Y0\nX2 Y1\nX2 Y2\nG80");
+        REQUIRE(items.size() == 4);
+        CHECK(items[1].element.joined);
+        CHECK_FALSE(items[2].element.joined);
+        CHECK(items[3].element.joined);
+    }
+    SECTION("the last point is reached exactly") {
+        const auto items = run.run("G5.5 X1 Y0 F600\nX2 Y1\nX2.00003 Y1\nX2.00006 Y1\nG80");
+        REQUIRE(items.size() == 3);
+        CHECK(items[2].element.shape == MoveShape::line);
+        CHECK(items[2].element.to[0] == position_from_mm(2.00006));
+    }
+    SECTION("no point is elsewhere") {
+        CHECK(run.run("G5.5 X0 F600\nX0 Y0\nG80").empty());
+        CHECK_FALSE(run.interpreter().has_curve());
+    }
+    SECTION("feeds and lines of many points that coincide") {
+        std::string program = "G5.5 X1 Y0 F600\nX2 Y1 F700";
+        for (int i = 0; i < 100; ++i) {
+            program += "\nX2 Y1";
+        }
+        const auto items = run.run(program + "\nX3 Y1 F800\nG80");
+        REQUIRE(items.size() == 3);
+        CHECK(items[1].line == 2);
+        CHECK(items[2].line == 103);
+        CHECK(items[2].feed == Decimal::from_integer(800));
+    }
+    SECTION("from a micrometre to metres") {
+        const auto items = run.run("G5.5 X0.001 Y0 F600\nX8000 Y1\nX8000.001 Y1.0005\nX7999 Y1.0006\nX0 Y5\nG80");
+        CHECK(items.size() == 5);
+    }
+}
+
+TEST_CASE("an interpreter without memory for it refuses a curve through points", "[program][points]") {
+    Interpreter<double> interpreter(six_axes());
+    interpreter.start({});
+    CHECK(interpreter.push("G5.5 X1 F600", 1).error == ProgramError::points_unsupported);
+    CHECK_FALSE(interpreter.has_curve());
+}
