@@ -21,7 +21,8 @@ constexpr double at_rest = 0.3;             // of the time without a new move: a
 constexpr double between_changes_s = 0.004; // of an override that changes all the time, as an adaptive feed may
 constexpr double with_jerk_s = 0.1;         // a search for each
 constexpr double same_place_mm = 1e-6;
-constexpr unsigned most_pushed = 4; // moves, between two looks at the clock
+constexpr unsigned kept_by_path = 2; // moves: what becomes of a joint depends on two behind it
+constexpr unsigned most_pushed = 4;  // moves, between two looks at the clock
 
 MachineSettings settings_of(const tpc_machine& machine) noexcept {
     MachineSettings out;
@@ -300,7 +301,7 @@ bool TpMotion::knows_enough() noexcept {
     };
     const QueuedMove& first = move(base_);
     double behind_mm = 0.0;
-    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - n) > 0; ++n) {
+    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - kept_by_path - n) > 0; ++n) {
         behind_mm += move(n).length_mm;
     }
     const double feed = first.element.feed_mm_s;
