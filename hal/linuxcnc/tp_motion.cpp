@@ -21,7 +21,8 @@ constexpr double at_rest = 0.3;             // of the time without a new move: a
 constexpr double between_changes_s = 0.004; // of an override that changes all the time, as an adaptive feed may
 constexpr double with_jerk_s = 0.1;         // a search for each
 constexpr double same_place_mm = 1e-6;
-constexpr unsigned most_pushed = 4; // moves, between two looks at the clock
+constexpr unsigned kept_by_path = 2; // moves: what becomes of a joint depends on two behind it
+constexpr unsigned most_pushed = 4;  // moves, between two looks at the clock
 
 MachineSettings settings_of(const tpc_machine& machine) noexcept {
     MachineSettings out;
@@ -283,24 +284,34 @@ bool TpMotion::released() noexcept {
            idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
-// A path begins once its first move may be left as fast as it can be: what is known behind it is long enough to brake.
-// With less the plan would stop at the end of that move, and a part of it that is committed stays as it is.
+// A path begins once its first move may be left as fast as it can be, and the segments that are made at once need not
+// slow down: what is known behind them is long enough to brake. Else they would be planned to a stop, and they stay.
 bool TpMotion::knows_enough() noexcept {
-    const QueuedMove& first = move(base_);
-    double acceleration = machine_.acceleration[0] * scale(0);
+    double acceleration = largest<double>();
+    double jerk = largest<double>();
     double fastest_sq = 0.0;
     for (const unsigned k : indices(machine_.axes)) {
         const double velocity = machine_.velocity[k] * scale(k);
         acceleration = smaller(acceleration, machine_.acceleration[k] * scale(k));
+        jerk = machine_.jerk[k] > 0.0 ? smaller(jerk, machine_.jerk[k] * scale(k)) : jerk;
         fastest_sq += velocity * velocity;
     }
-    const double feed = first.element.feed_mm_s;
-    const double speed_sq = feed == rapid_feed<double> ? fastest_sq : smaller(feed * feed, fastest_sq);
-    double needed_mm = smaller(first.length_mm, speed_sq / (2.0 * acceleration));
-    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - n) > 0; ++n) {
-        needed_mm -= move(n).length_mm;
+    const auto braking_mm = [&](double speed) {
+        return 0.5 * speed * (speed / acceleration + acceleration / jerk);
+    };
+    const QueuedMove& first = move(base_);
+    double behind_mm = 0.0;
+    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - kept_by_path - n) > 0; ++n) {
+        behind_mm += move(n).length_mm;
     }
-    return needed_mm <= 0.0 || !path_->has_room();
+    const double feed = first.element.feed_mm_s;
+    const double speed = feed == rapid_feed<double> ? std::sqrt(fastest_sq) : smaller(feed, std::sqrt(fastest_sq));
+    const double at_once_s =
+        ahead_ * (limits_.jerk_limited ? larger(machine_.period_s, least_segment_s) : machine_.period_s);
+    const double soon = smaller(speed, at_once_s * smaller(acceleration, 0.5 * jerk * at_once_s));
+    const double least_mm = 0.5 * soon * at_once_s + braking_mm(soon);
+    return (behind_mm >= smaller(first.length_mm, braking_mm(speed)) && first.length_mm + behind_mm >= least_mm) ||
+           !path_->has_room();
 }
 
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
@@ -344,7 +355,7 @@ void TpMotion::plan() noexcept {
             if (ring_count_ > 1 || policy != UnderrunPolicy::wait || over) {
                 return; // or there is time for moves to come
             }
-            if (!has_now_ && !limits_.jerk_limited && !knows_enough()) {
+            if (!has_now_ && !knows_enough()) {
                 return;
             }
             drains = true;
