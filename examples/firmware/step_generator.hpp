@@ -23,7 +23,8 @@ struct MotionPart {
     splinefeed::TickPart ticks;
     PerAxis<std::int32_t> end{};   ///< position at its end [counts]
     bool rest = false;             ///< the machine stands at its end
-    std::uint16_t feed_mm_min = 0; ///< for those who ask; the generator does not need it
+    std::uint8_t waypoint = 0;     ///< of its segment, modulo 256; for those who ask, as the next one
+    std::uint16_t feed_mm_min = 0; ///< the generator does not need it
 };
 
 struct Inputs {
@@ -106,6 +107,9 @@ public:
         return active() ? feed_.load(std::memory_order_relaxed) * (rate_seen_.load(std::memory_order_relaxed) >> 8) >> 8
                         : 0;
     }
+
+    /// Of the part that is executed, or was the last one.
+    [[nodiscard]] std::uint8_t waypoint() const noexcept { return waypoint_.load(std::memory_order_relaxed); }
 
     /// Whether steps are made, or still will be: false at standstill, also where the ring ran out.
     [[nodiscard]] bool active() const noexcept { return active_.load(std::memory_order_acquire); }
@@ -272,6 +276,7 @@ private:
         }
         rest_ = part.rest;
         feed_.store(part.feed_mm_min, std::memory_order_relaxed);
+        waypoint_.store(part.waypoint, std::memory_order_relaxed);
         end_ = part.end;
         ring_.drop();
         return steps;
@@ -282,6 +287,7 @@ private:
     std::atomic<std::uint32_t> rests_pushed_{0};
     std::array<std::atomic<std::int32_t>, Axes> count_{};
     std::atomic<std::uint32_t> ticks_{0};
+    std::atomic<std::uint8_t> waypoint_{0};
     std::atomic<std::uint32_t> underruns_{0};
     std::atomic<Stop> stop_{Stop::none};
     std::atomic<Stop> order_{Stop::none};

@@ -79,6 +79,7 @@ void ServedTarget::submit(const FeedSegment& segment) {
         known_.axes = all_axes(); // the operator has unlocked what the drives did not know
     }
     rests_ = false;
+    waypoints_.push_back(segment.waypoint);
     feed_.push(segment);
 }
 
@@ -105,6 +106,12 @@ std::vector<RunTarget::AxisPlace> ServedTarget::places() const {
 MachineReading ServedTarget::read() noexcept {
     MachineReading out;
     out.stands = stands();
+    const std::uint64_t left = feed_.pushed() - std::min(feed_.pushed(), feed_.executed());
+    while (waypoints_.size() > left) {
+        waypoints_.pop_front();
+    }
+    out.executes = !out.stands && !waypoints_.empty();
+    out.waypoint = out.executes ? waypoints_.front() : 0;
     out.spindle_ready = feed_.carried_out();
     out.input = feed_.answer();
     const std::lock_guard lock(mutex_);

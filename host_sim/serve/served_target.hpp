@@ -9,6 +9,7 @@
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -127,12 +128,13 @@ private:
     TargetFeed feed_;
     std::uint32_t segment_ticks_;
     // Of the server's thread:
-    std::string sentence_;   // of the last reading
-    FeedSegment last_;       // submitted
-    bool rests_ = true;      // rest() was called behind it
-    std::uint64_t seen_ = 0; // executed,
-    Time moved_{};           // when that changed
-    bool stalls_ = true;     // it has not for a while: the port waits for more, or has not begun
+    std::string sentence_;                // of the last reading
+    FeedSegment last_;                    // submitted
+    std::deque<std::uint32_t> waypoints_; // of segments that are not executed
+    bool rests_ = true;                   // rest() was called behind it
+    std::uint64_t seen_ = 0;              // executed,
+    Time moved_{};                        // when that changed
+    bool stalls_ = true;                  // it has not for a while: the port waits for more, or has not begun
     // Shared:
     mutable std::mutex mutex_; // protects the members below
     Orders orders_;

@@ -97,6 +97,8 @@ MachineReading SimulatedTool::read() noexcept {
     MachineReading out;
     out.position = position_;
     out.stands = stands();
+    out.executes = !queue_.empty();
+    out.waypoint = out.executes ? queue_.front().waypoint : 0;
     out.known = known_;
     out.spindle_ready = now_ >= spindle_ready_;
     out.homing = homing_;

@@ -92,6 +92,8 @@ public:
         MachineReading out;
         out.position = position_;
         out.stands = queue_.empty() && !moves_;
+        out.executes = !queue_.empty();
+        out.waypoint = out.executes ? queue_.front().waypoint : 0;
         out.known = known;
         out.spindle_ready = now_ >= spindle_at_;
         out.input = input;

@@ -71,6 +71,8 @@ void StepperMachine::submit(const FeedSegment& segment) noexcept {
         part_.rest = segment.ends_at_rest();
         part_.end = loader_.end_count();
         part_.feed_mm_min = feed_of(segment);
+        waypoint_ = segment.waypoint;
+        part_.waypoint = static_cast<std::uint8_t>(waypoint_);
         steps_.push(part_);
     }
 }
@@ -84,6 +86,8 @@ MachineReading StepperMachine::read() noexcept {
     out.stands = !has_stopped_ && (stop == Stop::none || stop == Stop::estop) && steps_.stands();
     out.inputs = (inputs_.limit ? all_limits : 0U) | (inputs_.estop ? InputBits::emergency_stop : 0U);
     out.alarm = alarm_;
+    out.executes = steps_.active();
+    out.waypoint = waypoint_ - static_cast<std::uint8_t>(waypoint_ - steps_.waypoint());
     out.feed_mm_min = Decimal::from_integer(static_cast<std::int32_t>(steps_.feed_mm_min()));
     return out;
 }

@@ -49,6 +49,8 @@ private:
     MotionPart part_;
     Inputs inputs_;
     std::uint32_t submitted_ = 0; // the tick of the last segment
+    std::uint32_t waypoint_ = 0;  // of that
+    static_assert(board::parts < 256, "the generator knows as many digits of a waypoint");
     splinefeed::Alarm alarm_ = splinefeed::Alarm::none;
     bool has_stopped_ = false; // on the path, as this round shows: where it stands is to be asked for
 };

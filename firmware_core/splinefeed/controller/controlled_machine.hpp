@@ -24,11 +24,13 @@ struct InputBits {
 struct MachineReading {
     PerAxis<Position> position{}; ///< where the axes are
     bool stands = true;           ///< all segments that were submitted are executed, and nothing moves
-    bool known = true;            ///< the position is that of the machine; false: it has to home
-    bool spindle_ready = true;    ///< the spindle turns as it was told, or stands; the input of M66 has answered
-    std::int32_t input = 0;       ///< that answer: 0, 1, or -1 after its time
-    std::uint32_t inputs = 0;     ///< those that are active, InputBits
-    bool touched = false;         ///< the probe has changed as watch_probe() said, at touched_at
+    bool executes = false;        ///< a segment, of this waypoint:
+    std::uint32_t waypoint = 0;
+    bool known = true;         ///< the position is that of the machine; false: it has to home
+    bool spindle_ready = true; ///< the spindle turns as it was told, or stands; the input of M66 has answered
+    std::int32_t input = 0;    ///< that answer: 0, 1, or -1 after its time
+    std::uint32_t inputs = 0;  ///< those that are active, InputBits
+    bool touched = false;      ///< the probe has changed as watch_probe() said, at touched_at
     PerAxis<Position> touched_at{};
     HomingPhase homing = HomingPhase::none;
     Alarm alarm = Alarm::none;       ///< as long as its cause lasts

@@ -214,6 +214,7 @@ void Controller::write_status(bool all) noexcept {
     content.free_moves = task_ == Task::line ? 0 : most_free_moves;
     const auto most = static_cast<std::size_t>(settings_->receive_bytes);
     content.free_bytes = lines_.room() < most ? lines_.room() : most;
+    content.line = reading_.executes && !jogging_ ? motion_->line_of(reading_.waypoint) : 0;
     status_.mask = sender_.report_mask;
     status_.inches = sender_.inches;
     status_.write(content, *settings_, all, answers_);

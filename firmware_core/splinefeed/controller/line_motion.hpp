@@ -65,6 +65,8 @@ public:
     [[nodiscard]] virtual bool exhausted() const noexcept = 0;
     /// Whether the last segment ended at rest.
     [[nodiscard]] virtual bool at_rest() const noexcept = 0;
+    /// The line of the program that a segment of that waypoint belongs to, as the interpreter was told; 0: unknown.
+    [[nodiscard]] virtual std::uint32_t line_of(std::uint32_t waypoint) const noexcept = 0;
     /// Why the path ended before its end: a move leaves the travel, or what the counters hold.
     [[nodiscard]] virtual bool left_travel() const noexcept = 0;
 

@@ -29,6 +29,7 @@ void ScalarMotion<S>::build_path() noexcept {
     static_cast<void>(status);
     pushed_ = reached_ = 0;
     event_count_ = 0;
+    line_numbers_.clear();
     item_pending_ = holds_ = waits_ = refused_ = false;
     exhausted_ = at_rest_ = true;
 }
@@ -78,7 +79,7 @@ bool ScalarMotion<S>::release(bool stops) noexcept {
     holds_ = false;
     exhausted_ = false;
     if (path_->push(held_).ok()) {
-        ++pushed_;
+        line_numbers_.add(pushed_++, held_line_);
     } else {
         refused_ = true;
     }
@@ -109,6 +110,7 @@ template <Scalar S>
 void ScalarMotion<S>::take_move() noexcept {
     const bool rapid = item_.move == MoveKind::rapid;
     held_ = item_.element;
+    held_line_ = item_.line;
     held_.feed_mm_s = rapid ? rapid_feed<S> : held_.feed_mm_s;
     if (!rapid && !(held_.max_feed_mm_s > S{})) {
         held_.max_feed_mm_s = to_scalar<S>(settings_->max_feed_mm_s);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/controller/line_motion.hpp"
+#include "splinefeed/controller/line_numbers.hpp"
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
@@ -38,6 +39,9 @@ public:
         return exhausted_ && !holds_ && !interpreter_.has_curve();
     }
     [[nodiscard]] bool at_rest() const noexcept override { return at_rest_; }
+    [[nodiscard]] std::uint32_t line_of(std::uint32_t waypoint) const noexcept override {
+        return line_numbers_.find(waypoint);
+    }
     [[nodiscard]] bool left_travel() const noexcept override {
         return refused_ || guard_->has_ended() || !trajectory_.status().ok();
     }
@@ -78,6 +82,8 @@ private:
     Trajectory<S> trajectory_;
     ProgramItem<S> item_;
     PathElement<S> held_;
+    std::uint32_t held_line_ = 0;
+    LineNumbers line_numbers_; // of the moves in the path
     Waiting waiting_;
     std::array<Event, most_events> events_{};
     std::size_t event_count_ = 0;

@@ -92,6 +92,9 @@ void StatusReport::write(const Content& content, const ControllerSettings& setti
     if ((mask & 2) != 0) {
         out.put("|Bf:").integer(content.free_moves).put(',').integer(static_cast<std::int64_t>(content.free_bytes));
     }
+    if ((mask & 4) != 0 && content.line > 0) {
+        out.put("|Ln:").integer(content.line);
+    }
     const Decimal feed = inches ? Decimal{product_quotient(reading.feed_mm_min.raw, 10, 254).raw} : reading.feed_mm_min;
     out.put("|FS:").decimal(feed, 0).put(',').decimal(content.spindle->told_rpm(), 0);
     write_inputs(reading.inputs, settings, out);

@@ -32,6 +32,7 @@ public:
         Overrides overrides{};
         int free_moves = 0;
         std::size_t free_bytes = 0;
+        std::uint32_t line = 0; ///< that is executed; 0: none
     };
 
     /// @param all  also what is said now and then
@@ -39,7 +40,7 @@ public:
     /// The next reports have both.
     void refresh() noexcept { until_offsets_ = until_overrides_ = 0; }
 
-    std::int32_t mask = 3; ///< $10: bit 0 machine position, else that of the program; bit 1 buffers
+    std::int32_t mask = 3; ///< $10: bit 0 machine position, else that of the program; bit 1 buffers, bit 2 line
     bool inches = false;   ///< $13
 
 private:
