@@ -106,7 +106,7 @@ private:
 } // namespace
 
 TEST_CASE("random stories of a served machine on lines lose no step", "[serve]") {
-    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(30, 2000)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(30, 500)); ++round) {
         CAPTURE(round);
         ServedStory(9000 + round).tell();
     }
