@@ -87,6 +87,19 @@ TEMPLATE_TEST_CASE("the controller answers as its conformance list says", "[cont
     run_cases<TestType>(false);
 }
 
+TEST_CASE("an output between two moves that go on straight switches where they meet", "[controller]") {
+    ControlledTool<double> tool;
+    std::vector<double> at_mm;
+    tool.send("G1 X10 F3000\nM62 P3\nX20\nX25\nM63 P3\nX30\nG4 P0.1\n");
+    for (int ms = 0; ms < 3000; ++ms) {
+        tool.tick();
+        at_mm.resize(tool.machine.orders.size(), to_mm(tool.machine.position()[0]));
+    }
+    REQUIRE(at_mm.size() == 2);
+    CHECK(at_mm[0] == Approx(10.0).margin(0.6)); // the machine holds 10 ms of motion
+    CHECK(at_mm[1] == Approx(25.0).margin(0.6));
+}
+
 TEST_CASE("however often its state is asked for, lines are executed", "[controller]") {
     ControllerSettings settings = settings_of_machine_tool();
     VirtualMachineTool machine(settings);

@@ -5,17 +5,22 @@
 
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/ports/gpio/gpio_switches.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
+#include "host_sim/ports/gpio/line_inputs.hpp"
+#include "host_sim/ports/gpio/line_spindle.hpp"
 #include "host_sim/serve/serve_settings.hpp"
 #include "host_sim/serve/served_motion.hpp"
 #include "host_sim/serve/served_target.hpp"
+#include "recorded_chips.hpp"
 #include "simulated_lines.hpp"
 #include "splinefeed/controller/controller.hpp"
 #include "support/places.hpp"
 #include "support/virtual_clock.hpp"
 
 #include <array>
-#include <functional>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -39,6 +44,11 @@ inline const std::string served_map = [] {
                   "[[input]]\nrole = \"probe\"\nline = 22\n";
 }();
 
+inline std::string served_machine() {
+    std::ifstream file(splinefeed::test::source_folder() + "/tests/serve/machine.toml");
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 class ServedLines {
 public:
     // Inputs of the map: those of an axis are home and limit.
@@ -48,10 +58,11 @@ public:
     static constexpr std::size_t limit_of(unsigned axis) { return 2 * axis + 1; }
 
     /// @param told  axes whose place is known, by bits: they stand at 0
-    explicit ServedLines(const std::string& map_text = served_map, std::uint32_t told = 7)
-        : run_machine_(
-              splinefeed::host::read_machine_file(splinefeed::test::source_folder() + "/tests/serve/machine.toml"),
-              true) {
+    /// @param machine_text  of the machine file; what programs switch is on chips that record
+    explicit ServedLines(const std::string& map_text = served_map, std::uint32_t told = 7,
+                         const std::string& machine_text = served_machine())
+        : run_machine_(splinefeed::host::parse_machine(machine_text, "machine.toml"), true),
+          chips(run_machine_.machine.lines) {
         const splinefeed::host::MachineDescription& machine = run_machine_.machine;
         auto map = std::make_unique<splinefeed::hal::gpio::LineMap>(
             splinefeed::host::parse_gpio_map(map_text, "lines.toml", machine, "chip"));
@@ -70,11 +81,8 @@ public:
         motion_ = std::make_unique<splinefeed::host::ServedMotion>(machine, settings);
         served = std::make_unique<splinefeed::host::ServedTarget>(
             std::move(target), machine,
-            splinefeed::host::ServedTarget::Settings{.segment_ticks = 8000, .told = told, .clock = &clock}, [this] {
-                return std::make_unique<splinefeed::host::ProgramOutputs>(
-                    nullptr, splinefeed::host::ProgramOutputs::Switches{}, splinefeed::host::ProgramOutputs::Inputs{},
-                    clock);
-            });
+            splinefeed::host::ServedTarget::Settings{.segment_ticks = 8000, .told = told, .clock = &clock},
+            [this] { return outputs(); });
         controller = std::make_unique<splinefeed::Controller>(
             settings, motion_->motion(), *served, splinefeed::Controller::Memory{line_memory_, answer_memory_});
     }
@@ -150,9 +158,28 @@ public:
     }
 
 private:
+    splinefeed::host::RunMachine run_machine_;
+
+public:
+    RecordedChips chips;
+
+private:
+    [[nodiscard]] std::unique_ptr<splinefeed::host::ProgramOutputs> outputs() {
+        using namespace splinefeed::host;
+        const MachineDescription& machine = run_machine_.machine;
+        std::unique_ptr<RunSpindle> spindle;
+        ProgramOutputs::Switches switches;
+        ProgramOutputs::Inputs inputs;
+        if (machine.spindle && machine.spindle->lines) {
+            spindle = std::make_unique<LineSpindle>(*machine.spindle->lines, machine.lines,
+                                                    machine.spindle->at_speed_timeout_s, chips.all, clock);
+        }
+        switches.push_back(std::make_unique<GpioSwitches>(machine.lines, chips.all));
+        inputs.push_back(std::make_unique<LineInputs>(machine.lines, chips.all, clock));
+        return std::make_unique<ProgramOutputs>(std::move(spindle), std::move(switches), std::move(inputs), clock);
+    }
     [[nodiscard]] std::uint32_t now_ms() const { return static_cast<std::uint32_t>(clock.now_ns() / 1'000'000); }
 
-    splinefeed::host::RunMachine run_machine_;
     splinefeed::hal::gpio::LineMap* map_ = nullptr;
     splinefeed::host::SwitchFacts switches_;
     std::unique_ptr<splinefeed::host::ServedMotion> motion_;

@@ -7,6 +7,8 @@
 
 #include "splinefeed/number/vector.hpp"
 
+#include <utility>
+
 namespace splinefeed {
 
 namespace {
@@ -39,6 +41,11 @@ S length_mm(Decimal from, Decimal to) noexcept {
     return absolute(distance<S>(to_position(from), to_position(to), 0));
 }
 
+bool with_motion(EventKind kind) noexcept {
+    return kind == EventKind::output_on_with_motion || kind == EventKind::output_off_with_motion ||
+           kind == EventKind::analog_output_with_motion;
+}
+
 } // namespace
 
 template <Scalar S>
@@ -68,8 +75,13 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
     out.kind = step.kind;
     out.line = line();
     out.stops_before = step.stops_before;
-    if (step.kind == ItemKind::move) {
+    if (step.kind == ItemKind::event) {
+        ends_chain_ = ends_chain_ || with_motion(out.event.kind);
+    } else if (step.kind == ItemKind::move) {
         fill_move(step, out);
+        if (std::exchange(ends_chain_, false)) { // within a curve of several moves the place of the event would be lost
+            out.element.chain_tolerance_mm = S{};
+        }
         if (step.shape == MoveShape::bezier && step.bezier->rational) {
             pieces_.begin(*step.bezier);
             in_pieces_ = true;

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <numeric>
 #include <thread>
-#include <utility>
 
 namespace splinefeed::host {
 
@@ -157,67 +156,6 @@ std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
     std::string what = mover_.home(axes);
     what = what.empty() ? inputs_.in_the_way(true) : what;
     return !what.empty() || options_.serves ? what : mover_.go_to(begin_mm);
-}
-
-// A motion that begins a little beside the middle between two counts begins at the count where its axis stands, which
-// may be the other one: no step is lost however often that happens.
-bool GpioTarget::align(const FeedSegment& first) {
-    constexpr std::int64_t half = units_per_count / 2;
-    constexpr std::int64_t most = units_per_count / 100;
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        const std::int64_t at = mover_.count(static_cast<int>(k)) * units_per_count;
-        shift_[k] = std::clamp(first.start[k], at - half, at + half - 1) - first.start[k];
-        if (shift_[k] > most || shift_[k] < -most) {
-            hold(StopCause::drive_fault,
-                 fmt::format("axis {} stands at {:.4f} mm, and its motion begins at {:.4f} mm", machine_->axis_name[k],
-                             mover_.position(static_cast<int>(k)),
-                             static_cast<double>(first.start[k]) / static_cast<double>(units_per_count) /
-                                 machine_->settings.axis[k].steps_per_mm));
-            return false;
-        }
-    }
-    return true;
-}
-
-bool GpioTarget::submit(const FeedSegment& segment) noexcept {
-    const auto limit = stops_.led_into(segment);
-    if (limit) {
-        hold(StopCause::limit_switch, fmt::format("the {} still acts: move away from it", inputs_.name(*limit)));
-    }
-    if (limit || (std::exchange(begins_, false) && !align(segment))) {
-        port_.quick_stop();
-        return false;
-    }
-    FeedSegment own = segment;
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        own.start[k] += shift_[k];
-        own.end[k] += shift_[k];
-    }
-    return port_.submit(own);
-}
-
-void GpioTarget::hold(StopCause cause, const std::string& why) {
-    if (holds_.empty()) {
-        holds_ = why;
-        cause_ = cause;
-    }
-}
-
-void GpioTarget::hold_by(std::size_t input) {
-    const bool limit = map_->inputs[input].role == InputRole::limit;
-    const char* const what = !options_.serves ? "held on the path"
-                             : limit          ? "reset, unlock by $X, and jog away from it"
-                                              : "see what the drive shows, and reset";
-    hold(limit ? StopCause::limit_switch : StopCause::drive_fault,
-         fmt::format("the {} acts: {}", inputs_.name(input), what));
-}
-
-void GpioTarget::forget_stop() noexcept {
-    holds_.clear();
-    cause_ = StopCause::none;
-    stop_.reset();
-    executed_us_ = 0;
-    quick_ = completed_ = false;
 }
 
 hal::PortState GpioTarget::poll() noexcept {
