@@ -116,7 +116,7 @@ def run():
     time.sleep(0.1)
     begin = time.monotonic()
     command.auto(linuxcnc.AUTO_RUN, 0)
-    wait(lambda: status.interp_state != linuxcnc.INTERP_IDLE or said, 10)
+    wait(lambda: status.interp_state != linuxcnc.INTERP_IDLE or said, 60) # a loaded computer is late
     actions = sorted(job["actions"], key=lambda a: a[0])
     busy = time.monotonic() # when it last was
     while time.monotonic() - begin < job["timeout_s"]:
@@ -129,7 +129,7 @@ def run():
             command.auto(linuxcnc.AUTO_RESUME)
         if not idle() or actions:
             busy = time.monotonic()
-        elif time.monotonic() - busy > 1.0: # a loaded computer shows an old state for a while
+        elif time.monotonic() - busy > 2.0: # it also shows an old state for a while
             recording.clear()
             return ""
         time.sleep(0.002)
