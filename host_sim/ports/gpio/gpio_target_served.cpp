@@ -134,6 +134,7 @@ std::uint32_t GpioTarget::homes_with(std::uint32_t axes) const {
 
 std::vector<RunTarget::AxisPlace> GpioTarget::references() const {
     std::vector<AxisPlace> out;
+    out.reserve(static_cast<std::size_t>(machine_->settings.axes));
     for (int k = 0; k < machine_->settings.axes; ++k) {
         out.push_back({static_cast<unsigned>(k), place(k)});
     }
