@@ -89,7 +89,9 @@ private:
         case 7: machine_.send("\x18\x18"); break;
         case 8: machine_.send("\x85"); break;
         case 9: machine_.send("\x84"); break;
-        case 10: machine_.clock.sleep_us(1000 * random_.below(300)); break; // the server does nothing
+        case 10:
+            machine_.clock.sleep_us(1000 * static_cast<std::uint64_t>(random_.below(300)));
+            break; // the server does nothing
         case 11:
             machine_.switch_mm[0] = machine_.switch_mm[0] < 0.0 ? 1000.0 : -2.0;
             machine_.carriage();

@@ -107,7 +107,8 @@ TEST_CASE("A listing of $$ becomes a machine file, as terminals and senders save
 
 TEST_CASE("serve answers to $$ with the numbers of the listing") {
     const RunMachine machine(parse_machine(machine_text, "router.toml"), true);
-    const ControllerSettings settings = serve_settings(machine);
+    const SwitchFacts switches;
+    const ControllerSettings settings = serve_settings(machine, switches);
     const SenderSettings sender;
     int known = 0;
     for (const auto& [number, value] : numbers) {
