@@ -218,7 +218,7 @@ private:
     bool ended_ = false;
 
 protected:
-    /// The curve through the points of G5.5, which Interpreter<S> makes.
+    // The curve through the points of G5.5, which Interpreter makes.
     enum class CurveState : std::uint8_t { none, open, gives, ends };
 
     bool in_pieces_ = false; // Interpreter<S> gives the last step in several items
