@@ -69,6 +69,3 @@ class BoardSender(Sender):
                 raise Failed(f"never {state}: {report}")
             self.wait_ms(10)
         return report
-
-    def close(self):
-        pass

@@ -107,8 +107,8 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
     if (whole_sweep()) { // no plan was found: more slowly, by an older one; most in few runs that crawl
         CHECK(25 * in_windows.slow <= in_windows.searched);
         CHECK(12 * in_small_windows.slow <= in_small_windows.searched);
-        CHECK(4 * compared > rounds(40, 2000)); // else nothing is compared
     }
+    CHECK((first_round() > 0 || 4 * compared > rounds(40, 2000))); // else nothing is compared
     CHECK(slow_in_fixed <= compared / 500);
     CHECK(slow_in_float <= 1 + compared / 10);
 }
@@ -133,25 +133,12 @@ TEST_CASE("a hairpin of a nanometre is passed within every limit", "[wild]") {
     arguments.path.curve.corner_angle = "180";
     const WildRun run = checked(scalar, write_texts(arguments, R"(
 sample_period_us = 1000
-[path]
-max_feed_mm_s = 800
-[[axis]]
-name = "x"
-max_velocity_mm_s = 750
-max_acceleration_mm_s2 = 6400
-max_jerk_mm_s3 = 420000
-steps_per_mm = 7700
-[[axis]]
-name = "y"
-max_velocity_mm_s = 45
-max_acceleration_mm_s2 = 82
-max_jerk_mm_s3 = 948
-steps_per_mm = 1976
-[[axis]]
-name = "z"
-max_velocity_mm_s = 49
-max_acceleration_mm_s2 = 956
-max_jerk_mm_s3 = 16030
+path = {max_feed_mm_s = 800}
+axis = [
+    {name = "x", max_velocity_mm_s = 750, max_acceleration_mm_s2 = 6400, max_jerk_mm_s3 = 420000, steps_per_mm = 7700},
+    {name = "y", max_velocity_mm_s = 45, max_acceleration_mm_s2 = 82, max_jerk_mm_s3 = 948, steps_per_mm = 1976},
+    {name = "z", max_velocity_mm_s = 49, max_acceleration_mm_s2 = 956, max_jerk_mm_s3 = 16030},
+]
 )",
                                                     "35.194105,40.189781,-37.127340\n35.194022,40.189519,-37.127068\n"
                                                     "35.197188,40.199264,-37.136493\n35.196496,40.196994,-37.134226\n"
@@ -175,20 +162,11 @@ TEST_CASE("a bend too sharp for Fixed is a stop", "[wild]") {
     arguments.motion.planner.window_cells = 24;
     const WildRun run = checked(ScalarKind::fixed, write_texts(arguments, R"(
 sample_period_us = 2000
-[path]
-max_feed_mm_s = 15.6846
-[[axis]]
-name = "x"
-max_velocity_mm_s = 7.10134
-max_acceleration_mm_s2 = 718.548
-steps_per_mm = 9511.56
-max_jerk_mm_s3 = 1312.51
-[[axis]]
-name = "y"
-max_velocity_mm_s = 17.2991
-max_acceleration_mm_s2 = 417.662
-steps_per_mm = 666.497
-max_jerk_mm_s3 = 879.853
+path = {max_feed_mm_s = 15.6846}
+axis = [
+    {name = "x", max_velocity_mm_s = 7.10134, max_acceleration_mm_s2 = 718.548, steps_per_mm = 9511.56, max_jerk_mm_s3 = 1312.51},
+    {name = "y", max_velocity_mm_s = 17.2991, max_acceleration_mm_s2 = 417.662, steps_per_mm = 666.497, max_jerk_mm_s3 = 879.853},
+]
 )",
                                                                "x,y,corner\n10.897864,20.450732,\n7.888008,16.989284,\n"
                                                                "10.897941,20.450999,0\n10.897941,20.450999,\n"
@@ -216,20 +194,12 @@ TEST_CASE("a machine at its largest speed brakes within the last cell of a strai
     arguments.path.curve.method = "ferguson";
     const RunArguments written = write_texts(arguments, R"(
 sample_period_us = 324
-[path]
-max_feed_mm_s = 875.25
-[[axis]]
-name = "x"
-max_velocity_mm_s = 1.14497
-max_acceleration_mm_s2 = 2089.11
-[[axis]]
-name = "y"
-max_velocity_mm_s = 10.8284
-max_acceleration_mm_s2 = 86051.2
-[[axis]]
-name = "z"
-max_velocity_mm_s = 14.0806
-max_acceleration_mm_s2 = 487.611
+path = {max_feed_mm_s = 875.25}
+axis = [
+    {name = "x", max_velocity_mm_s = 1.14497, max_acceleration_mm_s2 = 2089.11},
+    {name = "y", max_velocity_mm_s = 10.8284, max_acceleration_mm_s2 = 86051.2},
+    {name = "z", max_velocity_mm_s = 14.0806, max_acceleration_mm_s2 = 487.611},
+]
 )",
                                              "0,0,0\n-0.071871,-0.001537,0.083053\n", "", folder.file(""));
     const WildRun run = checked(scalar, written);
@@ -244,20 +214,12 @@ TEST_CASE("float arrives at the ends of long moves without a step", "[wild][floa
     arguments.motion.planner.window_cells = 64;
     const std::string machine = R"(
 sample_period_us = 1000
-[path]
-max_feed_mm_s = 70
-[[axis]]
-name = "x"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 20000
-[[axis]]
-name = "y"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 2000
-[[axis]]
-name = "z"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 44.8076
+path = {max_feed_mm_s = 70}
+axis = [
+    {name = "x", max_velocity_mm_s = 100, max_acceleration_mm_s2 = 20000},
+    {name = "y", max_velocity_mm_s = 100, max_acceleration_mm_s2 = 2000},
+    {name = "z", max_velocity_mm_s = 100, max_acceleration_mm_s2 = 44.8076},
+]
 )";
     const std::string program = "36.884463,-49.106353,-30.856842\n63.769175,-41.608288,-60.826221\n";
     const RunArguments written = write_texts(arguments, machine, program, "", folder.file(""));
@@ -271,26 +233,13 @@ TEST_CASE("float leaves a stop behind a long move within its limits", "[wild][fl
     arguments.path.curve.method = "g2";
     const std::string machine = R"(
 sample_period_us = 2283
-[path]
-max_feed_mm_s = 845.878
-centripetal_mm_s2 = 873.678
-[[axis]]
-name = "x"
-max_velocity_mm_s = 50.7214
-max_acceleration_mm_s2 = 2450.21
-[[axis]]
-name = "y"
-max_velocity_mm_s = 99.3082
-max_acceleration_mm_s2 = 1652.9
-max_braking_mm_s2 = 649.267
-[[axis]]
-name = "z"
-max_velocity_mm_s = 1000
-max_acceleration_mm_s2 = 718.155
-[[axis]]
-name = "a"
-max_velocity_mm_s = 1000
-max_acceleration_mm_s2 = 30168.9
+path = {max_feed_mm_s = 845.878, centripetal_mm_s2 = 873.678}
+axis = [
+    {name = "x", max_velocity_mm_s = 50.7214, max_acceleration_mm_s2 = 2450.21},
+    {name = "y", max_velocity_mm_s = 99.3082, max_acceleration_mm_s2 = 1652.9, max_braking_mm_s2 = 649.267},
+    {name = "z", max_velocity_mm_s = 1000, max_acceleration_mm_s2 = 718.155},
+    {name = "a", max_velocity_mm_s = 1000, max_acceleration_mm_s2 = 30168.9},
+]
 )";
     const RunArguments written = write_texts(arguments, machine,
                                              "35.651414,-127.642871,40.067098,77.263003\n"
@@ -308,20 +257,12 @@ TEST_CASE("float is nearly as fast as double where a soft axis moves along a lon
     arguments.motion.planner.window_cells = 64;
     const std::string machine = R"(
 sample_period_us = 1000
-[path]
-max_feed_mm_s = 93
-[[axis]]
-name = "x"
-max_velocity_mm_s = 500
-max_acceleration_mm_s2 = 10000
-[[axis]]
-name = "y"
-max_velocity_mm_s = 140
-max_acceleration_mm_s2 = 12000
-[[axis]]
-name = "z"
-max_velocity_mm_s = 25
-max_acceleration_mm_s2 = 47
+path = {max_feed_mm_s = 93}
+axis = [
+    {name = "x", max_velocity_mm_s = 500, max_acceleration_mm_s2 = 10000},
+    {name = "y", max_velocity_mm_s = 140, max_acceleration_mm_s2 = 12000},
+    {name = "z", max_velocity_mm_s = 25, max_acceleration_mm_s2 = 47},
+]
 )";
     const RunArguments written =
         write_texts(arguments, machine, "0,0,0\n-4,7,1\n3,15,-1.3\n7,27,3\n5,43,0.7\n", "", folder.file(""));
@@ -336,24 +277,13 @@ TEST_CASE("float is as fast as double where a soft axis hardly moves", "[wild][f
     arguments.path.curve.method = "g2";
     const std::string machine = R"(
 sample_period_us = 4000
-[path]
-max_feed_mm_s = 465
-[[axis]]
-name = "x"
-max_velocity_mm_s = 403
-max_acceleration_mm_s2 = 4481
-[[axis]]
-name = "y"
-max_velocity_mm_s = 366
-max_acceleration_mm_s2 = 48.85
-[[axis]]
-name = "z"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 7964
-[[axis]]
-name = "a"
-max_velocity_mm_s = 44.6
-max_acceleration_mm_s2 = 3592
+path = {max_feed_mm_s = 465}
+axis = [
+    {name = "x", max_velocity_mm_s = 403, max_acceleration_mm_s2 = 4481},
+    {name = "y", max_velocity_mm_s = 366, max_acceleration_mm_s2 = 48.85},
+    {name = "z", max_velocity_mm_s = 100, max_acceleration_mm_s2 = 7964},
+    {name = "a", max_velocity_mm_s = 44.6, max_acceleration_mm_s2 = 3592},
+]
 )";
     const RunArguments written = write_texts(
         arguments, machine, "13.730051,47.100598,40.223821,20.434744\n-4.799827,46.619125,41.241539,-0.004341\n", "",

@@ -301,8 +301,8 @@ Pull ArcLength<S>::load() noexcept {
     has_ahead_ = pull == Pull::item;
     stop_after_ = current().stop_at_end || !has_ahead_ || direction_jumps(current(), ahead, refinement_.direction_jump);
     if (counts_from_own_start<S> && stop_after_ && has_ahead_) {
-        for (const unsigned k :
-             indices(ahead.axes)) { // from where it stands: a long segment's rounding would be a step
+        // From where it stands: a long segment's rounding would be a step
+        for (const unsigned k : indices(ahead.axes)) {
             ahead.origin[k].raw += current().end[k].raw - ahead.start(k).raw;
         }
     }
@@ -336,8 +336,7 @@ void ArcLength<S>::split() noexcept {
     ++right.level;
     left.level = right.level;
     left.at_start = right.at_start;
-    left.at_end = false;
-    right.at_start = false;
+    left.at_end = right.at_start = false;
     right.halve(current().axes, current().degree, left.control, right.control);
     if constexpr (counts_from_own_start<S>) {
         left.start = right.start;
