@@ -35,7 +35,8 @@ struct RunOptions {
     bool reset = false;                   ///< faults of the drives are reset first
     bool home = false;                    ///< the axes find their references before the run moves
     std::uint32_t home_axes = UINT32_MAX; ///< which, by bits: RunTarget::homes_with
-    bool probe = false;                   ///< the run ends, held on the path, when the probe touches
+    std::uint32_t placed = UINT32_MAX; ///< axes that stand where prepare() begins, by bits; of others it says nothing
+    bool probe = false;                ///< the run ends, held on the path, when the probe touches
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
     bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;

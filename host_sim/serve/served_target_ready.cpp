@@ -139,6 +139,7 @@ void ServedTarget::find_references(std::uint32_t axes) {
     FeedSegment found = standing();
     if (phase_ == Phase::open && !gives_up()) {
         options_.home = true;
+        options_.placed = known;
         options_.home_axes = search != 0 ? search : axes; // it says why there is none
         {
             const std::lock_guard lock(mutex_);
@@ -150,6 +151,7 @@ void ServedTarget::find_references(std::uint32_t axes) {
         found.end = found.start;
         why = make_ready(found);
         options_.home = false;
+        options_.placed = UINT32_MAX;
     }
     const bool homed = phase_ == Phase::ready;
     if (homed) {

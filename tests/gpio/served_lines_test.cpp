@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A machine on lines that is operated: where it stands is what its lines have counted, whatever happens to it.
-#include "served_lines.hpp"
+#include "operated_lines.hpp"
 #include "support/catch.hpp"
 #include "support/random_path.hpp"
 #include "support/rounds.hpp"
@@ -11,77 +11,8 @@
 using namespace splinefeed;
 using namespace splinefeed_test;
 
-namespace {
-
-class Operated : public ServedLines {
-public:
-    using ServedLines::ServedLines;
-
-    void wait(int ms) {
-        for (; ms > 0; --ms) {
-            tick();
-        }
-    }
-    template <class Condition>
-    [[nodiscard]] bool comes(const Condition& condition, int most_ms = 20'000) {
-        for (; most_ms > 0 && !condition(); --most_ms) {
-            tick();
-        }
-        return condition();
-    }
-    [[nodiscard]] bool says(const std::string& what) {
-        return comes([&] { return text.find(what) != std::string::npos; });
-    }
-    /// Sends lines, and waits until all is done.
-    void go(const std::string& program) {
-        text.clear();
-        send(program);
-        tick();
-        INFO(program << ": " << text);
-        REQUIRE(comes([this] { return rests(); }));
-        CHECK(text.find("error") == std::string::npos);
-    }
-    [[nodiscard]] bool rests() {
-        const ControllerState state = controller->state();
-        return served->stands() && (state == ControllerState::idle || state == ControllerState::alarm ||
-                                    ((state == ControllerState::hold || state == ControllerState::door)));
-    }
-    /// Begins a long move, and waits until it has full speed.
-    void begin_move() {
-        go("G90G53G0X10Y10\n");
-        send("G1X290Y150F6000\n");
-        REQUIRE(comes([this] { return mm(0) > 40.0; }));
-    }
-    [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns()) * 1e-6; }
-    /// What is told of each axis is what was counted.
-    void check_place() {
-        for (const host::RunTarget::AxisPlace& at : served->places()) {
-            const double told = at.mm.value_or(-1e6) * 320.0;
-            INFO("axis " << at.axis << ": told " << told << ", counted " << counts()[at.axis]);
-            CHECK(std::fabs(told - static_cast<double>(counts()[at.axis])) <= 0.5 + 1e-6);
-        }
-    }
-    void check_still() {
-        const std::size_t rows = lines->rows().size();
-        const std::uint64_t last_ns = last_step_ns();
-        wait(500);
-        CHECK(last_step_ns() == last_ns);
-        CHECK(lines->rows().size() - rows < 10); // the drives may have been switched
-    }
-    /// Behind an alarm.
-    void unlock() {
-        send("\x18");
-        wait(50);
-        text.clear();
-        send("$X\n");
-        REQUIRE(says("ok"));
-    }
-};
-
-} // namespace
-
 TEST_CASE("places between two counts, resets and jogs lose no step", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     RandomPath random(4711);
     for (int n = 0; n < rounds(60, 2000); ++n) {
         const double x = (2.0 * random.below(4000) + 1.0) / 640.0; // right in the middle between two counts
@@ -114,7 +45,7 @@ TEST_CASE("stops by wire: on the path, no step after the standstill, and none is
     };
     constexpr std::array ways{Way{"!", "!", 220.0},       Way{"0x18", "\x18", 220.0},       Way{"0x19", "\x19", 220.0},
                               Way{"0x84", "\x84", 220.0}, Way{"0x18 twice", "\x18", 140.0}, Way{"it goes", "", 220.0}};
-    Operated machine;
+    OperatedLines machine;
     RandomPath random(2211);
     std::array<double, ways.size()> longest{};
     for (int n = 0; n < rounds(static_cast<int>(4 * ways.size()), 300); ++n) {
@@ -151,7 +82,7 @@ TEST_CASE("stops by wire: on the path, no step after the standstill, and none is
 }
 
 TEST_CASE("a jog that is cancelled, and one whose sender is silent, end on their way", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     const bool silent = GENERATE(false, true);
     machine.send("$J=X200Y100F6000\n");
     machine.wait(600);
@@ -168,7 +99,7 @@ TEST_CASE("a jog that is cancelled, and one whose sender is silent, end on their
 }
 
 TEST_CASE("a server that stands still: the axes come to rest on the path, and go on", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     machine.begin_move();
     machine.clock.sleep_us(3'000'000); // no plan comes
     const std::uint64_t last_ns = machine.last_step_ns();
@@ -182,7 +113,7 @@ TEST_CASE("a server that stands still: the axes come to rest on the path, and go
 }
 
 TEST_CASE("the e-stop acts whatever the machine does, and only a reset behind it ends that", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     const int when = GENERATE(0, 1, 2, 3, 4, 5, 6);
     CAPTURE(when);
     switch (when) {
@@ -236,7 +167,7 @@ TEST_CASE("the e-stop acts whatever the machine does, and only a reset behind it
 }
 
 TEST_CASE("a limit switch holds on the path, and its axis may leave it, not go on", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     machine.begin_move();
     machine.switch_mm[0] = 1000.0; // x acts now, wherever it is
     REQUIRE(machine.says("ALARM:1\r"));
@@ -286,8 +217,27 @@ TEST_CASE("a limit switch holds on the path, and its axis may leave it, not go o
     }
 }
 
+TEST_CASE("a limit switch that acts while its axis stands behind an alarm is left both ways", "[serve]") {
+    OperatedLines machine;
+    machine.begin_move();
+    machine.press(ServedLines::drive_fault, true);
+    REQUIRE(machine.says("ALARM:17"));
+    machine.wait(2000);
+    machine.switch_mm[0] = 1000.0;
+    machine.carriage();
+    machine.wait(100);
+    machine.press(ServedLines::drive_fault, false);
+    machine.wait(20);
+    machine.unlock();
+    const PerAxis<std::int64_t> before = machine.counts();
+    machine.go("$J=G91X1F600\n");
+    machine.go("$J=G91X-2F600\n");
+    CHECK(machine.text.find("ALARM") == std::string::npos);
+    CHECK(machine.counts()[0] == before[0] - 320);
+}
+
 TEST_CASE("a limit switch or a drive that faults while the machine stands is an alarm", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     const bool moved = GENERATE(false, true);
     const bool drive = GENERATE(false, true);
     if (moved) {
@@ -315,49 +265,8 @@ TEST_CASE("a limit switch or a drive that faults while the machine stands is an 
     CHECK(machine.counts()[0] == (moved ? 3520 : 320));
 }
 
-TEST_CASE("homing finds its switches from anywhere, and a reset stops it at once", "[serve]") {
-    Operated machine(served_map, 0);
-    machine.at_start_mm = {30.0, 12.0, -20.0};
-    CHECK_FALSE(machine.served->read().known);
-    machine.wait(20);
-    CHECK(machine.controller->state() == ControllerState::alarm);
-    SECTION("all, then one") {
-        machine.go("$H\n");
-        for (unsigned k = 0; k < 3; ++k) {
-            CHECK(machine.mm(k) == Approx(0.0).margin(0.004));
-        }
-        machine.go("G0 X20 Y10 Z-5\n");
-        machine.go("$HY\n");
-        CHECK(machine.served->places()[1].mm.value() == Approx(0.0).margin(0.004));
-        CHECK(machine.served->places()[0].mm.value() == 20.0);
-        CHECK(machine.mm(0) == Approx(20.0).margin(0.004));
-        CHECK(machine.mm(1) == Approx(0.0).margin(0.004));
-    }
-    SECTION("a reset") {
-        machine.send("$H\n");
-        machine.wait(400);
-        const double asked_ms = machine.now_ms();
-        machine.send("\x18");
-        REQUIRE(machine.says("ALARM:6"));
-        machine.wait(400);
-        CHECK(static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms < 120.0);
-        machine.check_still();
-        CHECK_FALSE(machine.served->read().known);
-        machine.unlock();
-        machine.go("$H\n");
-        CHECK(machine.mm(2) == Approx(0.0).margin(0.004));
-    }
-    SECTION("a switch that is not there") {
-        machine.switch_mm[2] = 1000.0;
-        machine.send("$HZ\n");
-        REQUIRE(machine.says("ALARM:9"));
-        CHECK(machine.text.find("line 2) does not act within 96 mm") != std::string::npos);
-        CHECK_FALSE(machine.served->read().known);
-    }
-}
-
 TEST_CASE("sleep switches the drives off, and the place is lost; the end does as the machine file says", "[serve]") {
-    Operated machine;
+    OperatedLines machine;
     machine.go("G0 X10\n");
     machine.text.clear();
     machine.send("$SLP\n");
@@ -383,7 +292,7 @@ TEST_CASE("what a map lacks is refused with the file and its key", "[serve]") {
         map.erase(at, map.find("[[input]]", at + 9) - at);
     }
     map.erase(map.rfind("[[input]]"));
-    Operated machine(map);
+    OperatedLines machine(map);
     machine.send("$H\nG38.2 Z-5 F100\n");
     REQUIRE(machine.says("error:20"));
     CHECK(machine.text ==

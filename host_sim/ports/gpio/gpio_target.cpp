@@ -122,8 +122,8 @@ std::string GpioTarget::make_ready(const FeedSegment& first) {
     PerAxis<double> begin_mm{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         const auto axis = static_cast<unsigned>(k);
-        if (!mover_.referenced(k)) {
-            mover_.preset_position(k, nearest_step(first.start[axis]));
+        if ((options_.placed >> axis & 1U) != 0) {
+            place_unknown(k, first);
         }
         begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
                          machine_->settings.axis[axis].steps_per_mm;
@@ -143,6 +143,12 @@ std::string GpioTarget::make_ready(const FeedSegment& first) {
     return {};
 }
 
+void GpioTarget::place_unknown(int axis, const FeedSegment& first) noexcept {
+    if (!mover_.referenced(axis)) {
+        mover_.preset_position(axis, nearest_step(first.start[static_cast<unsigned>(axis)]));
+    }
+}
+
 std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
     const std::uint32_t axes = homes_with(options_.home_axes);
     if (axes == 0) {
@@ -159,11 +165,6 @@ std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
 }
 
 hal::PortState GpioTarget::poll() noexcept {
-    PerAxis<std::int64_t> counts{};
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        counts[k] = port_.counts(static_cast<int>(k));
-    }
-    stops_.follow(counts, time_->now_us());
     take_changes();
     // Levels, too: a change may have been taken before the run.
     if (const auto input = stops_.acting()) {
@@ -225,7 +226,13 @@ void GpioTarget::note(const SwitchChange& change) {
     input_summary_.add(std::move(entry));
 }
 
+// Behind an alarm, too, where nobody polls: an axis that has stood for a while runs into nothing.
 void GpioTarget::take_changes() {
+    PerAxis<std::int64_t> counts{};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        counts[k] = port_.counts(static_cast<int>(k));
+    }
+    stops_.follow(counts, time_->now_us());
     while (const auto change = inputs_.take()) {
         note(*change);
         const bool probe = map_->inputs[change->input].role == InputRole::probe;

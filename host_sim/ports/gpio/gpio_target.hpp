@@ -64,6 +64,7 @@ private:
 
     [[nodiscard]] std::string make_ready(const FeedSegment& first);
     [[nodiscard]] std::string home(const PerAxis<double>& begin_mm);
+    void place_unknown(int axis, const FeedSegment& first) noexcept;
     [[nodiscard]] bool align(const FeedSegment& first);
     void hold(StopCause cause, const std::string& why);
     void hold_by(std::size_t input);

@@ -20,6 +20,7 @@ bool GpioTarget::align(const FeedSegment& first) {
     constexpr std::int64_t half = units_per_count / 2;
     constexpr std::int64_t most = units_per_count / 100;
     for (const unsigned k : indices(machine_->settings.axes)) {
+        place_unknown(static_cast<int>(k), first); // behind a search of others
         const std::int64_t at = mover_.count(static_cast<int>(k)) * units_per_count;
         shift_[k] = std::clamp(first.start[k], at - half, at + half - 1) - first.start[k];
         if (shift_[k] > most || shift_[k] < -most) {
@@ -79,15 +80,19 @@ void GpioTarget::set_ready(const RunOptions& options) {
     options_.home = options.home;
     options_.reset = options.reset;
     options_.home_axes = options.home_axes;
+    options_.placed = options.placed;
 }
 
-// The drives were off, or are on and stand. What has stopped them stays until a reset.
+// The drives were off, or are on and stand. What has stopped them stays until a reset; so does a limit on which a
+// search was given up, which is a reset.
 hal::PortFailure GpioTarget::open() {
     if (std::string what = inputs_.trouble().empty() ? inputs_.in_the_way(false) : fault(); !what.empty()) {
         return {what};
     }
     const Stop stop = stopped_by();
-    if (!options_.reset) {
+    const bool stands_well =
+        stop.cause == StopCause::none || (stop.cause == StopCause::limit_switch && options_.interrupted());
+    if (!options_.reset && !stands_well) {
         return {stop.why};
     }
     if (port_.was_disabled() || !port_.position_known()) {
