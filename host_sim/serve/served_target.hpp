@@ -129,7 +129,6 @@ private:
     std::uint32_t segment_ticks_;
     // Of the server's thread:
     std::string sentence_;                // of the last reading
-    FeedSegment last_;                    // submitted
     std::deque<std::uint32_t> waypoints_; // of segments that are not executed
     bool rests_ = true;                   // rest() was called behind it
     std::uint64_t seen_ = 0;              // executed,
