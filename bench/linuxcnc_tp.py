@@ -5,6 +5,7 @@
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
       [--tool build/tool/bin/splinefeed] [--stops] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
+      [--linuxcnc TREE]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
@@ -14,7 +15,8 @@ a hundred periods planning gets no time. --judge and --canon measure the distanc
 without motion, too, and what the tool takes with a stop where the machine stood: what is left is lost by the planner. --hal: more lines for
 HAL. --set: a line of the INI file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without
 output 0. --indexer: A is a locking rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not
-while it is locked. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion.
+while it is locked. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion. --linuxcnc: a source tree
+of LinuxCNC, built to run in place, else what is installed.
 """
 import argparse
 import importlib.util
@@ -30,7 +32,6 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:] = [p for p in sys.path if pathlib.Path(p or ".").resolve() != HERE]  # its gcode.py is not LinuxCNC's gcode
-MODULES = pathlib.Path("/usr/lib/linuxcnc/modules")
 VELOCITY, ACCELERATION = 100.0, 1000.0
 FIGURES = ["splinefeed-tp." + name for name in ("max-us", "mean-us", "urgent", "late", "busy")] + [
     "splinefeed-tp.below-%04d-us" % (1 << bit) for bit in range(12)] + ["splinefeed-tp.above-2048-us", "motion-controller.tmax"]
@@ -38,12 +39,12 @@ OTHERS = ["current-vel", "program-line", "in-position", "digital-out-00", "contr
 
 INSIDE = """set -e
 cd /
-[ -z "$2" ] || mount --bind "$2" /usr/lib/linuxcnc/modules
+[ -z "$2" ] || mount --bind "$2" "$4"
 mount --rbind "$1" /tmp
 /usr/bin/python3 -c 'import fcntl, socket, struct
 fcntl.ioctl(socket.socket(), 0x8914, struct.pack("16sh14x", b"lo", 0x1 | 0x40))'
 cd /tmp
-export HOME=/tmp PATH=/usr/sbin:/usr/bin:/sbin:/bin
+export HOME=/tmp PATH="$5"/usr/sbin:/usr/bin:/sbin:/bin
 if [ "$3" = root ]; then # rtapi_app refuses to run for root
     chown -R 65534:65534 /tmp/.
     exec setpriv --reuid=65534 --regid=65534 --clear-groups --no-new-privs linuxcnc -r /tmp/sim.ini < /dev/null
@@ -128,13 +129,17 @@ net unlocked timedelay.0.out => joint.3.is-unlocked => sampler.0.pin.{0}
 INDEXER_INI = ["JOINT_3.LOCKING_INDEXER=1", "EMCMOT.UNLOCK_JOINTS=8", "AXIS_A.LOCKING_INDEXER_JOINT=3", "AXIS_A.WRAPPED_ROTARY=1"]
 
 
+def modules_of(options):
+    return options.linuxcnc / "rtlib" if options.linuxcnc else pathlib.Path("/usr/lib/linuxcnc/modules")
+
+
 def units_mm(axes, inch):
     return [25.4 if inch and axis not in "ABC" else 1.0 for axis in axes]
 
 
 def write_machine(folder, axes, options, tpmod):
     text = INI.format(period_ns=options.period * 1000, axes=axes, joints=len(axes), units="inch" if options.inch else "mm",
-                      tpmod=tpmod and "TPMOD = " + tpmod)
+                      tpmod=f"TPMOD = {tpmod}" if tpmod else "")
     nets = ""
     for i, (axis, mm) in enumerate(zip(axes, units_mm(axes, options.inch))):
         for section in ("AXIS_" + axis, f"JOINT_{i}"):
@@ -165,7 +170,7 @@ def run(program, axes, options, module, parameters, actions):
         modules = ""
         if module:
             modules = pathlib.Path(name) / "modules"
-            shutil.copytree(MODULES, modules)
+            shutil.copytree(modules_of(options), modules)
             shutil.copy(module, modules / "splinefeed_tp.so")
             subprocess.run(["chmod", "-R", "a+rX", name], check=True)
         write_machine(folder, axes, options, module and f"splinefeed_tp axes={axes} inch={int(options.inch)} {parameters}")
@@ -176,7 +181,8 @@ def run(program, axes, options, module, parameters, actions):
         root = os.getuid() == 0
         spaces += [] if root else ["--user", "--map-root-user"]
         environment = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
-        ran = subprocess.run([*spaces, "bash", "-c", INSIDE, "inside", folder, modules, "root" if root else "user"],
+        path = f"{options.linuxcnc}/scripts:{options.linuxcnc}/bin:" if options.linuxcnc else ""
+        ran = subprocess.run([*spaces, "bash", "-c", INSIDE, "inside", folder, modules, "root" if root else "user", modules_of(options), path],
                              capture_output=True, text=True, env=environment, timeout=options.timeout + 120, check=False)
         if not (folder / "result.json").exists():
             return {"problem": "LinuxCNC did not run: " + " | ".join((ran.stdout + ran.stderr).strip().split("\n")[-12:]), "said": []}
@@ -326,7 +332,7 @@ def main():
     parser.add_argument("--axes", default="")
     for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
                                 ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
-                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("timeout", int, 300)):
+                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("linuxcnc", pathlib.Path, None), ("timeout", int, 300)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--inch", action="store_true")
@@ -334,7 +340,7 @@ def main():
     parser.add_argument("--indexer", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
-    if shutil.which("linuxcnc") is None:
+    if options.linuxcnc is None and shutil.which("linuxcnc") is None:
         print("SKIPPED: there is no LinuxCNC (Debian: apt-get install linuxcnc-uspace)")
         return 0
     print("| program | planner | s | tool, s | path, um | velocity | acceleration | jerk | mean us | max us | urgent | late | controller us: mean, 99.9 % | problem |\n"
