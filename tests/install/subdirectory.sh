@@ -12,6 +12,7 @@ cp tests/install/core.cpp "$scratch"
 cat >"$scratch/CMakeLists.txt" <<'PROJECT'
 cmake_minimum_required(VERSION 3.22)
 project(firmware LANGUAGES CXX)
+set(SPLINEFEED_UNITY_BUILD ON)
 set(SPLINEFEED_MAX_AXES 3)
 set(SPLINEFEED_MAX_DEGREE 3)
 set(SPLINEFEED_CORE_WITHOUT "/splines/ferguson|/surfaces/|/s0_program/|/s1_blended_path/|/jerk_|/s5_pulse_train/")
