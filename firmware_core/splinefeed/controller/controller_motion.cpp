@@ -60,7 +60,8 @@ Supply Controller::supply(bool dry) const noexcept {
     }
     const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
     if (motion_->at_rest()) {
-        return lines_.lines() == 0 && pauses ? Supply::pauses : Supply::flows;
+        const bool may_move = !held_ && !door_; // else it can wait, however slowly the lines come
+        return lines_.lines() == 0 && pauses && may_move ? Supply::pauses : Supply::flows;
     }
     const bool takes_none = dry && (lines_left_ > 0 || lines_.lines() == 0);
     return !takes_none ? Supply::flows : pauses ? Supply::pauses : Supply::late;
