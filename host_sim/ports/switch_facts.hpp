@@ -20,7 +20,7 @@ struct SwitchFacts {
     double pull_off_mm = 0.0;
     double seek_mm_s = 0.0;  ///< of the slowest axis
     double latch_mm_s = 0.0; ///< likewise
-    std::string no_home;     ///< why no axis finds a reference, and what would be right; empty: some do
+    std::string no_home;     ///< of axes that find none, what would be right; empty: the controller's own sentence
 };
 
 } // namespace splinefeed::host

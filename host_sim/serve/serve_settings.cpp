@@ -52,7 +52,7 @@ ControllerSettings serve_settings(const RunMachine& machine_of_run, const Switch
     out.name = machine.name;
     constexpr double s_per_min = 60.0;
     constexpr std::uint32_t us_per_ms = 1000;
-    out.homes = switches.homes != 0;
+    out.homes = switches.homes;
     out.no_home = switches.no_home.empty() ? out.no_home : switches.no_home;
     out.probes = switches.probe;
     out.has_limits = switches.limits != 0;

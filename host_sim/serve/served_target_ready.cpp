@@ -139,8 +139,8 @@ void ServedTarget::find_references(std::uint32_t axes) {
     FeedSegment found = standing();
     if (phase_ == Phase::open && !gives_up()) {
         options_.home = true;
+        options_.home_axes = search;
         options_.placed = known;
-        options_.home_axes = search != 0 ? search : axes; // it says why there is none
         {
             const std::lock_guard lock(mutex_);
             known_.axes &= ~search;

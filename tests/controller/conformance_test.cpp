@@ -62,6 +62,8 @@ private:
             machine.input = static_cast<std::int32_t>(value);
         } else if (what == "spindle") {
             machine.spindle_ms = static_cast<std::uint32_t>(value);
+        } else if (what == "homes") {
+            tool_.settings.homes = static_cast<std::uint32_t>(value);
         } else if (what == "probes") {
             tool_.settings.probes = value != 0.0;
         } else if (what == "halts") {

@@ -96,7 +96,7 @@ def tells_its_numbers(bench):
     bench.ask("$$\n", *NUMBERS)
     bench.ask("$I\n", f"[VER:1.1h.*:splinefeed * {bench.name}]"[:10] + "*", "[OPT:V,100,1024]", "ok")
     bench.ask("$110=5000\n", "[MSG:$110 is max_velocity_mm_s in the machine file]", "error:53")
-    bench.ask("$H\n", "[MSG:No axis of the machine file has a home]", "error:5")
+    bench.ask("$H\n$HY\n", "[MSG:No home of X, Y, Z: the machine has no switch for it]", "error:5", "[MSG:No home of Y: the machine has no switch for it]", "error:5")
     if bench.name in WITHOUT_POINTS:
         bench.ask("G5.5 X1 F100\n", "[MSG:Error: 1:1 this controller has no memory for curves through points*", "error:20")
     return "its settings, which nothing changes"

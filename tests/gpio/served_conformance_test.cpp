@@ -37,6 +37,8 @@ public:
             for (int ms = 0; ms < 5; ++ms) {
                 lines_.tick();
             }
+        } else if (rest.rfind("homes", 0) == 0) {
+            lines_.settings.homes = static_cast<std::uint32_t>(value);
         } else {
             lines_.settings.probes = value != 0.0;
         }
@@ -44,7 +46,8 @@ public:
 
     // What it takes of the list.
     static bool takes(const std::string& command, const std::string& rest) {
-        const bool machine = command == "machine" && (rest.rfind("plate", 0) == 0 || rest.rfind("probes", 0) == 0);
+        const std::string what = rest.substr(0, rest.find(' '));
+        const bool machine = command == "machine" && (what == "plate" || what == "probes" || what == "homes");
         const bool numbers = command == "needs" && rest.find("numbers") != std::string::npos;
         return machine || !(numbers || command == "machine" || command == "told" || command == "way");
     }

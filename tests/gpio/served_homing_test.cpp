@@ -116,3 +116,19 @@ TEST_CASE("a reset ends a search with one alarm, wherever the axes are, and behi
         CHECK(machine.mm(0) == Approx(0.0).margin(0.004));
     }
 }
+
+TEST_CASE("an axis without a home is refused before anything moves, and $H homes the others", "[serve]") {
+    std::string map = served_map;
+    const std::size_t at = map.find("[home.y]");
+    map.erase(at, map.find("[[input]]", at) - at);
+    OperatedLines machine(map, 0);
+    machine.at_start_mm = {30.0, 12.0, -20.0};
+    machine.send("$HXY\n");
+    REQUIRE(machine.says("error:5"));
+    CHECK(machine.text.find("[MSG:No home of Y: add [home.AXIS] to lines.toml") != std::string::npos);
+    machine.wait(500);
+    CHECK(machine.counts() == PerAxis<std::int64_t>{});
+    machine.go("$H\n");
+    CHECK(machine.known() == 5);
+    CHECK(machine.counts()[1] == 0);
+}

@@ -296,7 +296,7 @@ TEST_CASE("what a map lacks is refused with the file and its key", "[serve]") {
     machine.send("$H\nG38.2 Z-5 F100\n");
     REQUIRE(machine.says("error:20"));
     CHECK(machine.text ==
-          "[MSG:no home switch of x, y, z: add [home.x] to lines.toml, and an [[input]] with role = \"home\"]\r\n"
+          "[MSG:No home of X, Y, Z: add [home.AXIS] to lines.toml, and an [[input]] with role = \"home\"]\r\n"
           "error:5\r\n[MSG:The machine has no probe]\r\nerror:20\r\n");
     CHECK(machine.settings.has_limits);
 }

@@ -42,6 +42,20 @@ TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are 
     }
 }
 
+TEST_CASE("Set-point port, virtual: a drive whose profile has no home keeps only its own axis from homing", "[ports]") {
+    DriveProfile without; // of a drive that the plant has
+    SetpointPlant plant({});
+    without = plant.profile;
+    without.commands[static_cast<std::size_t>(DriveCommand::home)].clear();
+    plant.wirings[1].profile = &without;
+    const bool all = GENERATE(false, true);
+    plant.make({.home = true, .home_axes = all ? 7U : 5U});
+    REQUIRE_FALSE(plant.port->open());
+    const PortFailure failure = plant.port->prepare(motion.segments.front());
+    CHECK(failure.what == (all ? "its profile has no home command; home it by its own means" : ""));
+    CHECK(failure.drive == (all ? 1U : 0U));
+}
+
 TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again in which they are streamed to",
           "[ports]") {
     SetpointPlant plant({});

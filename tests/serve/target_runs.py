@@ -223,6 +223,18 @@ def home_ends(drives):
         require(max(still) - min(still) < 1.0, f"{command}, {stop!r}: it moves by {max(still) - min(still)} counts after 0.2 s")
 
 
+def no_home(drives):
+    """Drives whose profile has no home are not searched for one: the answer names their axes, and nothing moves."""
+    sender = unlocked(drives)
+    for line, named in ((b"$H", "X, Y, Z"), (b"$HZY", "Y, Z")):
+        sender.send(line + b"\n")
+        told = sender.line()
+        require(told.startswith(f"[MSG:No home of {named}: the profile of its drive has no command home") and sender.line() == "error:5", told)
+    require(sender.report().startswith("<Idle"), "it is not idle")
+    sender.close()
+    drives.end()
+
+
 def faults(drives):
     """What a drive reports, and a drive that is lost, are alarms; a reset resets the fault, and the place is read anew."""
     sender = unlocked(drives)
@@ -349,16 +361,16 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, faults, spindle, inputs, others)}
+CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, spindle, inputs, others)}
 DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 
 # Drives that follow target positions: their profiles, with keys of their addresses, and what of the cases they are for.
-PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds")), "leadshine-pr": ("", ("motion", "holds", "home", "home_ends"))}
+PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds", "no_home")), "leadshine-pr": ("", ("motion", "holds", "home", "home_ends"))}
 
 
 def main():
-    tool, names = sys.argv[1], sys.argv[2:] or [*CASES, *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
+    tool, names = sys.argv[1], sys.argv[2:] or [*(case for case in CASES if case != "no_home"), *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
     failed = 0
     for whole in names:
         name, _, profile = whole.partition("@")

@@ -33,7 +33,7 @@ inline ControllerSettings settings_of_machine_tool() {
     out.program.axes = 3;
     out.program.dialect = Dialect::grbl;
     out.name = "test";
-    out.homes = true;
+    out.homes = 7;
     out.max_rpm = Decimal::from_integer(10000);
     return out;
 }
@@ -81,7 +81,11 @@ public:
         if (homing_ == HomingPhase::busy && now_ >= home_at_) {
             homing_ = home_found ? HomingPhase::done : HomingPhase::failed;
             known = known || (home_found && home_axes_ == all_axes);
-            stop_at({});
+            PerAxis<Position> at = position_;
+            for (unsigned k = 0; k < 3; ++k) {
+                at[k] = (home_axes_ >> k & 1U) != 0 ? Position{} : at[k];
+            }
+            stop_at(at);
         }
     }
     [[nodiscard]] const PerAxis<Position>& position() const { return position_; }

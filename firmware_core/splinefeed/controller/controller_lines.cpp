@@ -85,22 +85,32 @@ struct DollarCommands {
     }
     static void home(Controller& c, TextCursor& rest) noexcept {
         const AxisLetters letters(c.settings_->program);
+        const std::uint32_t all = (1U << static_cast<unsigned>(letters.count())) - 1U;
         std::uint32_t axes = 0;
         for (; !rest.at_end() && letters.index(rest.peek()) >= 0; rest.step()) {
             axes |= 1U << static_cast<unsigned>(letters.index(rest.peek()));
         }
+        const std::uint32_t some = c.settings_->homes & all;
+        axes = axes != 0 ? axes : some != 0 ? some : all;
         const bool ready = c.activity() == ControllerState::idle ||
                            (c.activity() == ControllerState::alarm && !row_of(c.alarm_).needs_reset);
         if (!rest.at_end()) {
             c.refuse(LineError::unknown_command);
-        } else if (!c.settings_->homes) {
-            c.say(c.settings_->no_home);
+        } else if ((axes & ~some) != 0) {
+            std::string_view before = "[MSG:No home of "sv;
+            for (const unsigned k : indices(letters.count())) {
+                if (((axes & ~some) >> k & 1U) != 0) {
+                    c.answers_.put(before).put(upper_case(letters.letter(static_cast<int>(k))));
+                    before = ", "sv;
+                }
+            }
+            c.answers_.put(": ").put(c.settings_->no_home).put(']').end_line();
             c.refuse(LineError::no_homing);
         } else if (!ready || c.reading_.alarm != Alarm::none) {
             c.refuse(LineError::not_now);
         } else {
             c.task_ = Controller::Task::home;
-            c.machine_->home(axes != 0 ? axes : (1U << static_cast<unsigned>(letters.count())) - 1U);
+            c.machine_->home(axes);
         }
     }
     static void jog(Controller& c, TextCursor& rest) noexcept {

@@ -34,8 +34,8 @@ struct ControllerSettings {
     std::string_view date = "20260101";
     std::string_view name;   ///< of the machine
     std::string_view source; ///< where its numbers stand, for messages
-    bool homes = false;      ///< $H is possible; else why not:
-    std::string_view no_home = "No axis of the machine file has a home";
+    std::uint32_t homes = 0; ///< axes that find a reference by $H, by bits; of the others what would be right:
+    std::string_view no_home = "the machine has no switch for it";
     bool probes = true;      ///< it has a probe
     bool has_limits = false; ///< limit switches
     bool drives_stay_on = true;

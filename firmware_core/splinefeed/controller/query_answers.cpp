@@ -87,7 +87,7 @@ void write_build(const ControllerSettings& settings, bool axes, AnswerText& out)
         }
     }
     out.put(']').end_line();
-    out.put("[OPT:V").put(settings.homes ? "Z"sv : ""sv).put(",100,").integer(settings.receive_bytes);
+    out.put("[OPT:V").put(settings.homes != 0 ? "Z"sv : ""sv).put(",100,").integer(settings.receive_bytes);
     if (axes) {
         out.put(',').integer(settings.program.axes).put(",0]").end_line();
         out.put("[AXS:").integer(settings.program.axes).put(':');

@@ -106,7 +106,7 @@ struct SettingTable {
          }},
         {22, 0, "[home.x]",
          [](const C& c, const S&) {
-             return whole(c.homes ? 1 : 0);
+             return whole(c.homes != 0 ? 1 : 0);
          }},
         {23, 0, "towards of [home.x]",
          [](const C& c, const S&) {

@@ -151,9 +151,6 @@ void GpioTarget::place_unknown(int axis, const FeedSegment& first) noexcept {
 
 std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
     const std::uint32_t axes = homes_with(options_.home_axes);
-    if (axes == 0) {
-        return no_home_sentence(*map_, *machine_, options_.home_axes);
-    }
     for (int k = 0; k < machine_->settings.axes; ++k) {
         if ((axes >> static_cast<unsigned>(k) & 1U) != 0) {
             mover_.forget_position(k);

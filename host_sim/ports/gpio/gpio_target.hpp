@@ -106,10 +106,6 @@ private:
     bool finished_ = false; // the drives are in the state that the machine file requires
 };
 
-/// Why axes cannot home, and what would be right. @param axes  by bits; of those that can nothing is said
-[[nodiscard]] std::string no_home_sentence(const hal::gpio::LineMap& map, const MachineDescription& machine,
-                                           std::uint32_t axes);
-
 /// Reads the map and requests the lines. Throws InputError, TargetError and UsageError.
 [[nodiscard]] std::unique_ptr<GpioTarget>
 make_gpio_target(const GpioAddress& address, const MachineDescription& machine, const RunOptions& options);

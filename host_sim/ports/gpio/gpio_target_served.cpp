@@ -146,19 +146,6 @@ std::vector<RunTarget::AxisPlace> GpioTarget::references() const {
     return out;
 }
 
-std::string no_home_sentence(const hal::gpio::LineMap& map, const MachineDescription& machine, std::uint32_t axes) {
-    std::string names;
-    std::string first;
-    for (const unsigned k : indices(machine.settings.axes)) {
-        if ((axes >> k & 1U) != 0 && !map.home[k]) {
-            first = first.empty() ? machine.axis_name[k] : first;
-            names += (names.empty() ? "" : ", ") + machine.axis_name[k];
-        }
-    }
-    return fmt::format("no home switch of {}: add [home.{}] to {}, and an [[input]] with role = \"home\"", names, first,
-                       map.file);
-}
-
 SwitchFacts GpioTarget::switch_facts() const {
     SwitchFacts out;
     out.homes = homes_with(UINT32_MAX);
@@ -180,7 +167,7 @@ SwitchFacts GpioTarget::switch_facts() const {
             out.latch_mm_s = slower(out.latch_mm_s, home->latch_mm_s);
         }
     }
-    out.no_home = out.homes == 0 ? no_home_sentence(*map_, *machine_, UINT32_MAX) : std::string();
+    out.no_home = fmt::format("add [home.AXIS] to {}, and an [[input]] with role = \"home\"", map_->file);
     return out;
 }
 

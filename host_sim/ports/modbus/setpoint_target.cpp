@@ -149,6 +149,15 @@ std::string SetpointTarget::note() const {
                        port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
 }
 
+SwitchFacts SetpointTarget::switch_facts() const {
+    SwitchFacts out{.homes = 0, .no_home = "the profile of its drive has no command home; home it by its own means"};
+    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
+        const bool homes = !table_.drives[i].profile.steps_of(hal::modbus::DriveCommand::home).empty();
+        out.homes |= homes ? 1U << static_cast<unsigned>(axis_of(i)) : 0U;
+    }
+    return out;
+}
+
 std::vector<RunTarget::AxisPlace> SetpointTarget::standing() {
     require(port_.await_standstill());
     std::vector<AxisPlace> out;

@@ -40,6 +40,7 @@ public:
         check_register_ranges(table_, machine, port_.period_us());
     }
     [[nodiscard]] std::string note() const override;
+    [[nodiscard]] SwitchFacts switch_facts() const override;
     [[nodiscard]] std::vector<AxisPlace> standing() override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     void describe(Summary& summary) const override;

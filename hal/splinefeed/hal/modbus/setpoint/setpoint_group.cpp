@@ -82,7 +82,7 @@ PortFailure SetpointGroup::configure() {
     PortFailure trouble;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const SetpointWiring& wiring = slots_[i].wiring;
-        if (settings_->home && wiring.profile->steps_of(DriveCommand::home).empty()) {
+        if (homes(wiring) && wiring.profile->steps_of(DriveCommand::home).empty()) {
             trouble = {"its profile has no home command; home it by its own means", i, Remedy::omit_home};
         }
         drive(i).configure({.axis = wiring.axis,
@@ -105,9 +105,7 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first, bool placed) {
         for (std::size_t i = 0; i < slots_.size(); ++i) {
             Slot& slot = slots_[i];
             bool elsewhere = false;
-            const bool homes =
-                settings_->home && (settings_->home_axes >> static_cast<unsigned>(slot.wiring.axis) & 1U) != 0;
-            SetpointSetup setup(drive(i), {.home = homes,
+            SetpointSetup setup(drive(i), {.home = homes(slot.wiring),
                                            .reset = settings_->reset,
                                            .away_us = settings_->away_us,
                                            .interrupted = settings_->interrupted,

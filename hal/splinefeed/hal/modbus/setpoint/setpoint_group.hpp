@@ -101,6 +101,9 @@ private:
     };
 
     [[nodiscard]] PortFailure configure();
+    [[nodiscard]] bool homes(const SetpointWiring& wiring) const noexcept {
+        return settings_->home && (settings_->home_axes >> static_cast<unsigned>(wiring.axis) & 1U) != 0;
+    }
 
     const SetpointPortSettings* settings_;
     std::vector<std::unique_ptr<SetpointBus>> buses_;
