@@ -80,6 +80,8 @@ protected:
     [[nodiscard]] bool gives_curve() const noexcept {
         return curve_ == CurveState::gives || curve_ == CurveState::ends;
     }
+    /// Whether the block ends or pauses the program behind its motion.
+    [[nodiscard]] bool stops_behind() const noexcept { return block_.has(CodeGroup::stop); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
