@@ -23,7 +23,7 @@ bool LineReader::next(SourceLine& out) {
     try {
         for (;;) {
             if (Traits::eq_int_type(input_.sgetc(), Traits::eof())) {
-                out.whole = file_;
+                out.whole = file_ || out.text.empty();
                 if (stopped_) {
                     return false;
                 }

@@ -98,7 +98,56 @@ std::vector<Place> wave() {
     return points;
 }
 
+std::string point_on_circle(int i) {
+    std::array<char, 60> line{};
+    std::snprintf(line.data(), line.size(), "X%.4f Y%.4f\n", 100.0 + 30.0 * std::cos(0.1 * i),
+                  100.0 + 30.0 * std::sin(0.1 * i));
+    return line.data();
+}
+
+/// Sends points to a machine that is held, as long as they are taken, and `most`. Returns how many were.
+int send_held(ControlledTool<double>& tool, int most) {
+    const auto sends = [&](const std::string& line) {
+        tool.text.clear();
+        tool.send(line);
+        for (int ms = 0; ms < 10; ++ms) {
+            tool.tick();
+        }
+        return tool.text.find("ok") != std::string::npos;
+    };
+    sends("!F3000 G0 " + point_on_circle(0));
+    sends("G5.5 " + point_on_circle(1));
+    int sent = 1;
+    while (sent < most && sends(point_on_circle(sent + 1))) {
+        ++sent;
+    }
+    return sent;
+}
+
 } // namespace
+
+TEST_CASE("a line waits behind a curve that a pause has ended and the path has no room for", "[controller][points]") {
+    ControlledTool<double> full;
+    const int taken = send_held(full, 2000);
+    REQUIRE(taken < 2000);
+    ControlledTool<double> tool;
+    REQUIRE(send_held(tool, taken) == taken);
+    for (int ms = 0; ms < 300; ++ms) { // the pause
+        tool.tick();
+    }
+    tool.text.clear();
+    tool.send("G1 X50 Y50\n");
+    for (int ms = 0; ms < 300; ++ms) {
+        tool.tick();
+    }
+    CHECK(tool.text.empty());
+    tool.send("~");
+    for (int ms = 0; ms < 200000 && (ms < 200 || tool.controller->state() != ControllerState::idle); ++ms) {
+        tool.tick();
+    }
+    CHECK(tool.text == "ok\r\n");
+    CHECK(tool.machine.position()[0] == position_from_mm(50.0));
+}
 
 TEST_CASE("a machine travels through the points that a sender streams", "[controller][points]") {
     const bool in_bursts = GENERATE(false, true);

@@ -71,6 +71,7 @@ TEST_CASE("The last line of a pipe is whole only with its line end") {
         CHECK((reader.next(line) && line.whole));
         CHECK((reader.next(line) && line.text == "G1 X2" && line.whole == ended));
         CHECK(!reader.next(line));
+        CHECK(line.whole); // behind the last line there is none that is cut
         sender.join();
     }
 }

@@ -62,6 +62,19 @@ TEST_CASE("a feed plan that knows rotary axes gets F", "[program][interpreter]")
     CHECK(feed("A30 F60") == Approx(30.0));
 }
 
+TEST_CASE("items have the line of the source, or its number N where that is asked for", "[program][interpreter]") {
+    const bool numbered = GENERATE(false, true);
+    ProgramSettings settings = six_axes();
+    settings.numbered = numbered;
+    GcodeRun<double> run(settings);
+    std::vector<std::uint32_t> lines;
+    for (const auto& item : run.run("N70 G0 X1\nX2 N9 N8\nN0 X3\nN2.5 X4\n/ n 1 2 X5\n#1=6 N[10+#1] X6")) {
+        lines.push_back(item.line);
+    }
+    CHECK(lines ==
+          (numbered ? std::vector<std::uint32_t>{70, 9, 3, 4, 12, 10} : std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6}));
+}
+
 TEST_CASE("path modes", "[program][interpreter]") {
     GcodeRun<double> run;
     const auto move = [&](const char* line) {

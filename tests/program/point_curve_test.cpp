@@ -156,6 +156,9 @@ TEST_CASE("what ends a curve through points, and what does not", "[program][poin
                                                                  {"G5.2 X9 Y9", true},
                                                                  {"M0", true},
                                                                  {"M2", true},
+                                                                 {"X4 M2", true},
+                                                                 {"X4 Y1 M0", true},
+                                                                 {"X4 M1", true},
                                                                  {"%", true},
                                                                  {"", false},
                                                                  {"(here)", false},
@@ -187,6 +190,50 @@ TEST_CASE("what ends a curve through points, and what does not", "[program][poin
         run.interpreter().end_curve(); // as where the input pauses
         REQUIRE(run.push("").error == ProgramError::block_pending);
     }
+}
+
+TEST_CASE("a point beside M0 or M2 belongs to the curve, which ends in it", "[program][points]") {
+    const auto [words, event] = GENERATE(table<std::string, EventKind>({{"M0", EventKind::pause},
+                                                                        {"M1", EventKind::optional_pause},
+                                                                        {"M60", EventKind::pallet_pause},
+                                                                        {"M2", EventKind::program_end},
+                                                                        {"M30", EventKind::program_end}}));
+    const bool goes_before = GENERATE(false, true);
+    CAPTURE(words, goes_before);
+    const std::string begin = goes_before ? "G5.5 X1 Y0 F600\nX2 Y1\n" : "F600\n";
+    GcodeRun<double> apart;
+    const auto expected = apart.run(begin + "G5.5 X3 Y1\n" + words);
+    GcodeRun<double> run;
+    const auto items = run.run(begin + "G5.5 X3 Y1 " + words);
+    REQUIRE(items.size() == (goes_before ? 4U : 2U));
+    REQUIRE(items.size() == expected.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        CHECK(run.item_text(i) == apart.item_text(i));
+        CHECK((i + 1 == items.size() || items[i].element.bezier.points == expected[i].element.bezier.points));
+    }
+    CHECK(items.back().event.kind == event);
+    CHECK_FALSE(run.interpreter().has_curve());
+}
+
+TEST_CASE("an output before a curve through points leaves the moves behind that as they are", "[program][points]") {
+    const auto word = GENERATE(as<std::string>(), "M62 P1", "M63 P1", "M67 E1 Q2");
+    const auto chain_of = [](const std::string& begin) {
+        GcodeRun<double> run;
+        const auto items = run.run("G64 P0.1 F600\nG1 X-1\n" + begin + "G5.5 X1 Y0\nX2 Y1\nX3 Y1\nG1 X4 Y2\nX5 Y2");
+        std::vector<double> chain;
+        for (const auto& item : items) {
+            if (item.kind == ItemKind::move) {
+                chain.push_back(item.element.chain_tolerance_mm);
+                CHECK(item.element.joined == (chain.size() == 3 || chain.size() == 4));
+            }
+        }
+        return chain;
+    };
+    std::vector<double> expected = chain_of("");
+    REQUIRE(expected.size() == 6);
+    REQUIRE(expected[1] > 0.0);
+    expected[1] = 0.0;
+    CHECK(chain_of(word + "\n") == expected);
 }
 
 TEST_CASE("a refused line leaves a curve through points as it was", "[program][points]") {

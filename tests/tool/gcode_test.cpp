@@ -117,6 +117,34 @@ TEST_CASE("A sender that dies within a line: the line is not executed") {
     CHECK(summary_of(piped("G1 X1 F600\\nM2"))["length_mm"] == 1.0);
 }
 
+TEST_CASE("What a curve through points or cutter compensation holds back is executed at the end of a pipe") {
+    const Tool tool;
+    std::string begin = "F6000\n"; // until the machine moves
+    for (int i = 0; i < 20; ++i) {
+        begin += "G1 X1\nX0\n";
+    }
+    const auto piped = [&](const std::string& text) {
+        tool.write("part.ngc", begin + text);
+        return tool.shell("cat part.ngc | '" + tool_path() +
+                          "' run - --format gcode --window 32 --quiet --summary json");
+    };
+    const auto [held, place, next] = GENERATE(
+        table<std::string, std::string, std::string>({{"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "X9"},
+                                                      {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "G1 X9"},
+                                                      {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "X9 M2"},
+                                                      {"G41.1 D2 G1 X10\nX20\n", "x=20.000000 y=1.000000", "Y9"}}));
+    CAPTURE(held, next);
+    const double length_mm = summary_of(piped(held))["length_mm"];
+    CHECK(length_mm == summary_of(tool("run part.ngc --window 32 --quiet --summary json"))["length_mm"]);
+    for (const std::string behind : {"M2", "%", "(note)", "G91"}) {
+        CAPTURE(behind);
+        CHECK(summary_of(piped(held + behind))["length_mm"] == length_mm);
+    }
+    const Call cut = piped(held + next);
+    CHECK(cut.error.find(": the input ends within this line, so it was not executed") != std::string::npos);
+    CHECK(cut.error.find("the machine stands at " + place) != std::string::npos);
+}
+
 TEST_CASE("Dwells, pauses and events stand where the program has them, and dwells take their time") {
     const Tool tool;
     const std::string moves = "G1 X10 F3000\n%\nG1 X20\nM2\n";

@@ -174,20 +174,6 @@ struct DollarCommands {
     };
 };
 
-namespace {
-
-// The number N that a line begins with, for Ln of the reports; else `counted`.
-std::uint32_t stated_number(std::string_view text, std::uint32_t counted) noexcept {
-    TextCursor cursor(text);
-    Decimal number;
-    std::int32_t whole = 0;
-    cursor.take('/');
-    const bool states = cursor.take('n') && read_decimal(cursor, number).ok() && to_integer(number, whole) && whole > 0;
-    return states ? static_cast<std::uint32_t>(whole) : counted;
-}
-
-} // namespace
-
 // $n=value: what is there already may be set.
 void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     Decimal number;
@@ -257,7 +243,7 @@ void Controller::execute_block(std::string_view text) noexcept {
     const bool begins = activity() == ControllerState::idle && now_ms_ - block_ms_ >= recount_ms;
     line_number_ = begins ? 1 : line_number_ + 1;
     block_ms_ = now_ms_;
-    const BlockStatus status = motion_->interpreter().push(text, stated_number(text, line_number_));
+    const BlockStatus status = motion_->interpreter().push(text, line_number_);
     if (!status.ok()) {
         refuse_block(status);
     } else if (check_) {

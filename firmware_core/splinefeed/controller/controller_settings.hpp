@@ -25,7 +25,7 @@ struct AxisWiring {
 struct ControllerSettings {
     MachineSettings machine{};
     /// Dialect::grbl, with the letters of the axes.
-    ProgramSettings program{.dialect = Dialect::grbl};
+    ProgramSettings program{.dialect = Dialect::grbl, .numbered = true};
     Decimal max_feed_mm_s{};                                   ///< of moves that are no rapids; 0: the machine's
     Decimal rotary_tolerance_deg = Decimal::from_integer(100); ///< of moves that turn a rotary axis, if less
     PerAxis<AxisTravel> travel{};

@@ -294,12 +294,10 @@ bool ScalarMotion<S>::look_ahead() noexcept {
 template <Scalar S>
 void ScalarMotion<S>::let_go() noexcept {
     interpreter_.end_curve();
-    if (interpreter_.has_curve() || (item_pending_ && item_.kind == ItemKind::move)) {
+    if (interpreter_.has_curve()) {
         static_cast<void>(pass_on());
     }
-    if (!interpreter_.has_curve()) {
-        release(true);
-    }
+    release(true); // there is no room for it while the curve has more
 }
 
 template <Scalar S>

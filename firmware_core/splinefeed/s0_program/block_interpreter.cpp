@@ -121,6 +121,10 @@ BlockStatus BlockInterpreter::read_block(std::string_view text, std::uint32_t li
     discard_assignments(); // of a line that was refused
     line_ = line_number;
     const BlockStatus status = reader_.read(text, *this, block_, kind);
+    std::int32_t stated = 0;
+    if (settings_.numbered && to_integer(block_.value('n'), stated) && stated > 0) {
+        line_ = static_cast<std::uint32_t>(stated);
+    }
     plan_.clear();
     sub_step_ = 0;
     offsets_changed_ = false;

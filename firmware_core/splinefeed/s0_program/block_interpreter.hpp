@@ -41,7 +41,7 @@ public:
     /// Executes a line. After an error nothing of the line has happened, and the next line may follow. Nothing
     /// refers to the text after the call; an event says which part of it is its own. @pre next() has returned starved,
     /// else: block_pending
-    /// @param line_number  of the source, for the items
+    /// @param line_number  of the source, for the items: ProgramSettings::numbered
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench). On a Cortex-M4F
     /// 5,000 to 6,000 instructions for a line, 14,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
@@ -80,6 +80,8 @@ protected:
     [[nodiscard]] bool gives_curve() const noexcept {
         return curve_ == CurveState::gives || curve_ == CurveState::ends;
     }
+    /// Whether the block ends or pauses the program behind its motion.
+    [[nodiscard]] bool stops_behind() const noexcept { return block_.has(CodeGroup::stop); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }

@@ -229,6 +229,9 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         return ProgramError::number_has_exponent;
     }
     if (letter == 'n') {
+        if (!out.has('n')) {
+            out.set('n', value, column);
+        }
         return {};
     }
     if (letter == 'g' || letter == 'm') {

@@ -56,8 +56,10 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
     }
     ProgramStep step;
     for (;;) {
-        if (gives_curve() && give_curve(out)) {
-            return Pull::item;
+        while (gives_curve()) {
+            if (give_curve(out)) {
+                return Pull::item;
+            }
         }
         if (!has_steps()) {
             return has_ended() ? Pull::finished : Pull::starved;
@@ -79,9 +81,7 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
         ends_chain_ = ends_chain_ || with_motion(out.event.kind);
     } else if (step.kind == ItemKind::move) {
         fill_move(step, out);
-        if (std::exchange(ends_chain_, false)) { // within a curve of several moves the place of the event would be lost
-            out.element.chain_tolerance_mm = S{};
-        }
+        begin_chain(out.element);
         if (step.shape == MoveShape::bezier && step.bezier->rational) {
             pieces_.begin(*step.bezier);
             in_pieces_ = true;
@@ -98,6 +98,14 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
         out.dwell_s = step.dwell_s;
     }
     return Pull::item;
+}
+
+// Within a curve of several moves the place of an event before this one would be lost.
+template <Scalar S>
+void Interpreter<S>::begin_chain(PathElement<S>& element) noexcept {
+    if (std::exchange(ends_chain_, false)) {
+        element.chain_tolerance_mm = S{};
+    }
 }
 
 template <Scalar S>
@@ -247,9 +255,10 @@ bool Interpreter<S>::give_curve(ProgramItem<S>& out) noexcept {
     fill_manner(points_->manner(), MoveKind::feed, out);
     out.stops_before = false;
     if (points_->next(out)) {
+        begin_chain(out.element);
         return true;
     }
-    curve_ = curve_ == CurveState::ends ? CurveState::none : CurveState::open;
+    curve_ = curve_ == CurveState::ends ? CurveState::none : stops_behind() ? CurveState::ends : CurveState::open;
     return false;
 }
 

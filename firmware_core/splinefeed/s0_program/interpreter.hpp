@@ -38,6 +38,7 @@ public:
     Pull next(ProgramItem<S>& out) noexcept;
 
 private:
+    void begin_chain(PathElement<S>& element) noexcept;
     void fill_manner(const MoveManner& how, MoveKind move, ProgramItem<S>& out) const noexcept;
     void fill_move(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
     void fill_arc(const ProgramStep& step, ProgramItem<S>& out) const noexcept;

@@ -68,6 +68,7 @@ struct ProgramSettings {
     Dialect dialect = Dialect::linuxcnc;
     bool block_delete = false;                        ///< lines that begin with / are left out
     bool optional_pause = true;                       ///< M1 pauses
+    bool numbered = false;                            ///< items have the number N of their line, where that is above 0
     Decimal default_tolerance_mm{Decimal::one / 100}; ///< of G64 without P, and before the first of G61, G61.1, G64
     int chain_quarters = 3;                           ///< quarters of P that are Q of G64 where a program states none
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64

@@ -203,14 +203,15 @@ BlockStatus BlockInterpreter::plan_point() noexcept {
     return move_to(program, machine);
 }
 
-// Whether a curve through points goes on behind the block, which has been planned: it states a point, or modes that
-// have no place on the path.
+// Whether a curve through points goes on in the block, which has been planned: it states a point, or modes that have no
+// place on the path. M0 and M2 beside a point end it behind that.
 bool BlockInterpreter::leaves_curve_open() noexcept {
     for (unsigned group = 0; group < code_groups; ++group) {
         const auto code = static_cast<CodeGroup>(group);
         const bool goes_on = code == CodeGroup::motion || code == CodeGroup::distance || code == CodeGroup::units ||
                              code == CodeGroup::centre_distance || code == CodeGroup::feed_mode ||
-                             code == CodeGroup::plane || code == CodeGroup::retract;
+                             code == CodeGroup::plane || code == CodeGroup::retract ||
+                             (code == CodeGroup::stop && plan_.kind == PlanKind::point);
         if (block_.has(code) && !goes_on) {
             return false;
         }

@@ -17,7 +17,7 @@ bool is_arc(std::int16_t motion) noexcept {
 
 // The letters that the codes of the block take beside axes, F, S, T and N.
 std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::int16_t motion) noexcept {
-    std::uint32_t used = Block::bits("fst");
+    std::uint32_t used = Block::bits("fnst");
     const std::int16_t modeless = block.code(CodeGroup::non_modal);
     const std::int16_t input_output = block.code(CodeGroup::input_output);
     if (is_arc(motion)) {

@@ -57,7 +57,11 @@ public:
     [[nodiscard]] UnreadLines unread() override;
 
 private:
+    /// Whether a pipe ended within a line. Before it comes what the lines before it hold back.
+    enum class Cut : std::uint8_t { no, ahead, read };
+
     void read_line();
+    void end_input();
     /// Throws, unless problems are collected. @param cause  as of ProblemList::add
     void report(const InputError& error, std::string_view cause = {});
     void report_block(const BlockStatus& status, std::string_view text);
@@ -91,8 +95,9 @@ private:
     ProgramItem<double> item_;
     LineHistory history_;
     ProgramSpindle spindle_;
-    bool pending_ = false;           // the block has more items
-    bool is_last_ = false;           // there are no more lines
+    bool pending_ = false; // the block has more items
+    bool is_last_ = false; // there are no more lines
+    Cut cut_ = Cut::no;
     std::uint64_t last_line_ = 0;    // the number of the newest one
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
@@ -195,6 +200,12 @@ void GcodeMoves::read_line() {
     }
 }
 
+void GcodeMoves::end_input() {
+    if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
+        report({file_, last_line_, std::uint64_t{0}, describe(status.error)});
+    }
+}
+
 // One line at a time: whoever waits for a pipe wants to know after each.
 bool GcodeMoves::next(SourceStep& out) {
     out.kind = StepKind::nothing;
@@ -206,17 +217,16 @@ bool GcodeMoves::next(SourceStep& out) {
         if (interpreter_.has_ended() || enough) {
             return false;
         }
-        switch (flow_.next(line_)) {
+        switch (cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_)) {
         case ProgramFlow::Step::end:
-            if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
-                report({file_, last_line_, std::uint64_t{0}, describe(status.error)});
-            }
+            end_input();
             is_last_ = true;
             break;
         case ProgramFlow::Step::nothing: return true;
         case ProgramFlow::Step::line:
             last_line_ = line_.number;
-            read_line();
+            cut_ = line_.whole ? Cut::no : cut_ == Cut::no ? Cut::ahead : Cut::read;
+            cut_ == Cut::ahead ? end_input() : read_line();
             break;
         }
     }
@@ -230,8 +240,8 @@ bool GcodeMoves::next(SourceStep& out) {
 void GcodeMoves::take(SourceStep& out) {
     const bool ends = item_.kind == ItemKind::event &&
                       (item_.event.kind == EventKind::program_end || item_.event.kind == EventKind::offsets_changed);
-    if (!line_.whole && !ends) {
-        throw InputError(file_, line_.number, cut_line);
+    if (cut_ == Cut::read && !ends) {
+        throw InputError(file_, last_line_, cut_line);
     }
     out.line = item_.line;
     out.stops = item_.stops_before;
