@@ -6,6 +6,7 @@
 #include "host/temporary_folder.hpp"
 #include "support/bezier_paths.hpp"
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ TEST_CASE("legs that begin in motion are planned anew", "[wild][jerk]") {
     }
     std::uint64_t searched = 0;
     std::uint64_t slow = 0;
-    for (std::uint64_t round = 0; round < 24; ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(48)); ++round) {
         Random random(seed + round);
         std::ofstream(arguments.path.input) << program(random, round % 2 == 0 ? 0.01 : 0.05, round % 3 == 0);
         const WildRun run = wild_run(arguments, 200'000);
