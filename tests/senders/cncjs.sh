@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# CNCjs, a sender of G-code from npm, operates a served machine by a pseudo terminal: cncjs.sh BUILD_DIRECTORY.
+# CNCjs, a sender of G-code from npm, operates a served machine by a pseudo terminal, and the reference firmware of the LM3S6965 in QEMU: cncjs.sh BUILD_DIRECTORY.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
-need node npm
+source tests/arm/build.sh
+
+need node npm python3 arm-none-eabi-g++ qemu-system-arm
 folder=$1/cncjs
 mkdir -p "$folder"
 if ! cmp --silent tests/senders/package-lock.json "$folder/installed.json" || [[ ! -d $folder/node_modules ]]; then
@@ -15,4 +17,5 @@ if ! cmp --silent tests/senders/package-lock.json "$folder/installed.json" || [[
     fi
     cp tests/senders/package-lock.json "$folder/installed.json"
 fi
-exec tests/senders/cncjs_runs.mjs "$folder" "$1/bin/splinefeed"
+build_images cortex-m3 build/arm-cortex-m3
+exec tests/senders/cncjs_runs.mjs "$folder" "$1/bin/splinefeed" build/arm-cortex-m3/bin/firmware_lm3s6965.elf
