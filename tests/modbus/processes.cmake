@@ -43,6 +43,9 @@ process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
     process_test(modbus_faulted_runs faulted_runs.py --kind pvt --wire tcp --runs 8 --long-runs 20 --later 1.5)
+    if(SPLINEFEED_BOOST_INCLUDE)
+        process_test(modbus_served ../serve/target_runs.py)
+    endif()
     return()
 endif()
 process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004)
