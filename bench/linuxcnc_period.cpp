@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a servo period of splinefeed_tp.so takes, without LinuxCNC, as processor time: other programs do not count. Interrupts, cold caches and a
-// host below this system do. So the same periods are run fifteen times, with a clock that counts how often it is asked, by which each run does the
-// same in each period: what the quickest of a period took is its work.
+// What a servo period of splinefeed_tp.so takes, without LinuxCNC, as processor time: other programs do not count.
+// Interrupts, cold caches and a host below this system do. So the same periods are run fifteen times, with a clock that
+// counts how often it is asked, by which each run does the same in each period: what the quickest of a period took is
+// its work.
 //
 //     cmake --build build/linuxcnc --target linuxcnc_period && build/linuxcnc/linuxcnc/linuxcnc_period
 #include "tp_core.h"
@@ -94,13 +95,15 @@ double longest_work_us(const tpc_machine& machine, const tpc_settings& settings,
         if (us.size() != least.size()) {
             return NAN; // they did not do the same
         }
-        std::transform(us.begin(), us.end(), least.begin(), least.begin(), [](double a, double b) { return std::min(a, b); });
+        std::transform(us.begin(), us.end(), least.begin(), least.begin(),
+                       [](double a, double b) { return std::min(a, b); });
     }
     return *std::max_element(least.begin(), least.end());
 }
 
 int main() {
-    std::puts("| period us | jerk | path | mean us | 99 % | 99.9 % | longest | least of 15, longest |\n|---|---|---|---|---|---|---|---|");
+    std::puts("| period us | jerk | path | mean us | 99 % | 99.9 % | longest | least of 15, longest "
+              "|\n|---|---|---|---|---|---|---|---|");
     for (const double period_s : {0.001, 0.00025}) {
         for (const double jerk : {0.0, 30'000.0}) {
             const tpc_machine machine = machine_of(period_s, jerk);
@@ -117,7 +120,8 @@ int main() {
                 std::sort(us.begin(), us.end());
                 std::printf("| %.0f | %.0f | %s | %.1f | %.0f | %.0f | %.0f | %.1f |\n", period_s * 1e6, jerk,
                             corners ? "corners" : "short lines", sum / static_cast<double>(us.size()),
-                            us[us.size() * 99 / 100], us[us.size() * 999 / 1000], us.back(), longest_work_us(machine, settings, corners));
+                            us[us.size() * 99 / 100], us[us.size() * 999 / 1000], us.back(),
+                            longest_work_us(machine, settings, corners));
             }
         }
     }

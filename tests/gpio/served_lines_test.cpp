@@ -236,6 +236,25 @@ TEST_CASE("a limit switch that acts while its axis stands behind an alarm is lef
     CHECK(machine.counts()[0] == before[0] - 320);
 }
 
+TEST_CASE("a drive that faults in motion stops all axes on the path at once, and one reset ends that", "[serve]") {
+    OperatedLines machine;
+    machine.begin_move();
+    const double asked_ms = machine.now_ms();
+    machine.press(ServedLines::drive_fault, true);
+    REQUIRE(machine.says("ALARM:17"));
+    machine.wait(200);
+    CHECK(static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms < 140.0);
+    CHECK(std::fabs((machine.mm(1) - 10.0) - 0.5 * (machine.mm(0) - 10.0)) < 0.005);
+    machine.check_place();
+    machine.press(ServedLines::drive_fault, false);
+    machine.wait(20);
+    machine.unlock();
+    machine.check_still();
+    CHECK(machine.text.find("ALARM") == std::string::npos);
+    machine.go("G91 G0 X1\n");
+    machine.check_place();
+}
+
 TEST_CASE("a limit switch or a drive that faults while the machine stands is an alarm", "[serve]") {
     OperatedLines machine;
     const bool moved = GENERATE(false, true);

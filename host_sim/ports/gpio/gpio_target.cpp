@@ -177,8 +177,9 @@ hal::PortState GpioTarget::poll() noexcept {
 // What all axes do about it, as one: the plan holds; where it does not, the port stops; where that does not, it is cut.
 void GpioTarget::follow_stop() {
     const std::uint64_t now_us = time_->now_us();
-    if (!holds_.empty()) {
-        stop_.request(hal::StopRequest::hold, now_us);
+    if (!holds_.empty()) { // a controller brakes no plan behind the fault of a drive
+        const bool alone = options_.serves && cause_ == StopCause::drive_fault;
+        stop_.request(alone ? hal::StopRequest::quick_stop : hal::StopRequest::hold, now_us);
     }
     const hal::PortPhase phase = port_.poll().phase;
     const hal::StopRequest executed = port_.was_disabled() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
