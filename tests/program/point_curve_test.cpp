@@ -236,6 +236,13 @@ TEST_CASE("an output before a curve through points leaves the moves behind that 
     CHECK(chain_of(word + "\n") == expected);
 }
 
+TEST_CASE("an output behind which the program was dropped changes no move of the next one", "[program]") {
+    GcodeRun<double> run;
+    run.run("M62 P1");
+    run.interpreter().start({});
+    CHECK(run.run("G64 P0.1 G1 X1 F600")[0].element.chain_tolerance_mm > 0.0);
+}
+
 TEST_CASE("a refused line leaves a curve through points as it was", "[program][points]") {
     GcodeRun<double> run;
     run.run("G5.5 X1 Y0 F600\nX2 Y1");

@@ -132,6 +132,8 @@ TEST_CASE("What a curve through points or cutter compensation holds back is exec
         table<std::string, std::string, std::string>({{"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "X9"},
                                                       {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "G1 X9"},
                                                       {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "X9 M2"},
+                                                      {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "G1 X"},
+                                                      {"G5.5 X1 Y0\nX2 Y1\nX3 Y1\n", "x=3.000000 y=1.000000", "o1 ca"},
                                                       {"G41.1 D2 G1 X10\nX20\n", "x=20.000000 y=1.000000", "Y9"}}));
     CAPTURE(held, next);
     const double length_mm = summary_of(piped(held))["length_mm"];

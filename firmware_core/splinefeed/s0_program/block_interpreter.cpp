@@ -62,7 +62,7 @@ void BlockInterpreter::drop_block() noexcept {
     surface_.clear();
     plan_.clear();
     stage_ = all_done;
-    in_pieces_ = false;
+    in_pieces_ = ends_chain_ = false;
     curve_ = CurveState::none;
     discard_assignments();
 }

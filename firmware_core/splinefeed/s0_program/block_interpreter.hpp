@@ -223,7 +223,8 @@ protected:
     // The curve through the points of G5.5, which Interpreter makes.
     enum class CurveState : std::uint8_t { none, open, gives, ends };
 
-    bool in_pieces_ = false; // Interpreter<S> gives the last step in several items
+    bool in_pieces_ = false;  // Interpreter<S> gives the last step in several items
+    bool ends_chain_ = false; // the next move is joined with none before it
     bool takes_points_ = false;
     CurveState curve_ = CurveState::none;
 };

@@ -52,7 +52,6 @@ private:
     PointCurve<S>* points_;
     RationalPieces<S> pieces_{};
     bool pieces_begun_ = false; // the next piece is not the first
-    bool ends_chain_ = false;   // the next move is joined with none before it
     S pieces_feed_{};
     AxisPoint pieces_to_{};
     PerAxis<Position> piece_end_{};

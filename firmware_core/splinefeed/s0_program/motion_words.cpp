@@ -7,6 +7,8 @@ namespace splinefeed {
 namespace {
 
 constexpr Decimal longest = Decimal::from_integer(65536);
+constexpr int coarse = 21; // bits left out of a radius and an angle in degrees, so that their product does not overflow
+constexpr auto longest_arc = static_cast<std::int64_t>(65536.0 * 57.29577951308232 * 1e18 / 0x1p42);
 
 bool is_feed_motion(std::int16_t motion) noexcept {
     return motion != 0 && motion != ModalState::no_motion;
@@ -260,6 +262,10 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
         if (!is_position(value)) {
             return block_.at(ProgramError::position_out_of_range, CodeGroup::motion);
         }
+    }
+    const std::int64_t sweep = arc.sweep_deg.raw < 0 ? -arc.sweep_deg.raw : arc.sweep_deg.raw;
+    if ((arc.radius.raw >> coarse) * (sweep >> coarse) > longest_arc) {
+        return block_.at(ProgramError::move_too_long, CodeGroup::motion);
     }
     return move_to(program, machine);
 }

@@ -103,6 +103,7 @@ void flatten(PlanePoint from, PlanePoint to, ArcGeometry& out) noexcept {
     const Decimal chord = plane_distance(from, to);
     const Decimal radius = plane_distance(out.centre, from);
     const bool is_minor = out.sweep_deg.raw < Decimal::full_turn / 2 && out.sweep_deg.raw > -Decimal::full_turn / 2;
+    out.radius = radius;
     out.is_flat = is_minor && radius > flat_radius && chord < flat_chord;
     if (out.is_flat) {
         const std::int64_t half = chord.raw / 2;

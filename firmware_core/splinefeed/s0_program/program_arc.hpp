@@ -10,6 +10,7 @@ namespace splinefeed {
 struct ArcGeometry {
     PlanePoint centre{};
     Decimal sweep_deg{}; ///< negative: clockwise
+    Decimal radius{};
     /// The radius is above 32768 mm, and the parabola with this control point is within 1e-6 mm of the arc.
     bool is_flat = false;
     PlanePoint control{};

@@ -150,7 +150,7 @@ void GcodeMoves::report(const InputError& error, std::string_view cause) {
 void GcodeMoves::report_block(const BlockStatus& status, std::string_view text) {
     const std::string_view rest =
         text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
-    const std::string_view hint = dialect_hint(rest, status.error, settings_->dialect);
+    const std::string_view hint = cut_ == Cut::read ? cut_line : dialect_hint(rest, status.error, settings_->dialect);
     const std::string sentence =
         hint.empty() ? std::string(describe(status.error)).append(option_advice(status.error)) : std::string(hint);
     const bool says_dialect = sentence.find("--dialect") != std::string::npos;

@@ -141,7 +141,7 @@ ProgramFlow::Step ProgramFlow::take_word(SourceLine& line, const std::optional<F
         }
         begun_ = true;
         if (!line.whole) {
-            throw InputError(file_, line.number, cut_line);
+            return Step::line;
         }
         count_word(line);
         const FlowWord word = known ? *known : word_of(line);
