@@ -38,6 +38,7 @@ void tpMotData(emcmot_status_t *s, emcmot_config_t *c) {
 struct told {
     EmcPose end;
     double vel;
+    double pitch; /* of a move that follows the spindle's position */
     int id, canon, indexer, synced, rapid;
     unsigned char enables;
     char atspeed;
@@ -111,7 +112,7 @@ int tpClear(TP_STRUCT *tp) {
     tp->synchronized = 0;
     tp->uu_per_rev = 0.0;
     tp->spindle.waiting_for_atspeed = MOTION_INVALID_ID;
-    tp->spindle.waiting_for_index = MOTION_INVALID_ID;
+    tp_forget_index(tp, status);
     status->motionFlag |= EMCMOT_MOTION_INPOS_BIT;
     tp_clear_io(tp);
     return TP_ERR_OK;
@@ -133,10 +134,6 @@ int tpCreate(TP_STRUCT *tp, int size, int id) {
 /* ------------------------------------------------------------------ new moves */
 static int refused(TP_STRUCT *tp, const EmcPose *end) {
     if (tp == 0 || tp->aborting || failed || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
-    if (tp->synchronized == TC_SYNC_POSITION) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: moves that follow the spindle's position (G33, G76) are not done\n");
-        return TP_ERR_INVALID;
-    }
     for (int k = 0; k < tpc_axes; ++k) {
         if (!module_has_axis(k) && fabs(tp_coordinate(end, k) - tp_coordinate(&tp->goalPos, k)) > 1e-9) {
             rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: axis %c moves, but the module's parameter axes does not name it\n",
@@ -159,22 +156,29 @@ struct new_move { /* what tpAddLine and tpAddCircle have in common */
 static const double nominal_per_s = 1000.0;
 
 /* Whether the machine has to stand before a move: until the spindle has its speed, or an indexer is unlocked or locked.
- * And where moves begin or end to follow the spindle, because there is one override for all feeds. */
-static int stands_before(const struct new_move *from, int rapid, int synced) {
+ * And where moves begin or end to follow the spindle, because there is one override for all feeds. Moves that follow its
+ * position begin at its index, but behind another one of theirs. */
+static int stands_before(const struct new_move *from, int rapid, int synced, double pitch) {
     const int empty = out.first == out.last;
-    const int behind_indexer = locking != -1 || (!empty && told[(out.last - 1) % tpc_capacity].indexer != -1);
-    return from->atspeed || from->indexer != -1 || behind_indexer || (!empty && !rapid && synced != feeds_synced);
+    const struct told *newest = &told[(out.last - 1) % tpc_capacity];
+    const int behind_indexer = locking != -1 || (!empty && newest->indexer != -1);
+    const int changes = pitch > 0.0 ? empty || !(newest->pitch > 0.0) || newest->synced != synced
+                                    : !empty && !rapid && (synced != 0) != feeds_synced;
+    return from->atspeed || from->indexer != -1 || behind_indexer || changes;
 }
 
 static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, const struct new_move *from) {
-    const int synced = tp->synchronized == TC_SYNC_VELOCITY;
-    move->feed = synced ? tp->uu_per_rev * nominal_per_s : tp_feed(from->canon, from->vel, from->max_vel, from->tag, machine.mm_per_unit);
+    const int synced = tp->synchronized != TC_SYNC_NONE ? tp->spindle.spindle_num + 1 : 0;
+    move->pitch = tp->synchronized == TC_SYNC_POSITION ? fabs(tp->uu_per_rev) : 0.0;
+    move->feed = synced && !(move->pitch > 0.0)
+                     ? tp->uu_per_rev * nominal_per_s
+                     : tp_feed(from->canon, from->vel, from->max_vel, from->tag, machine.mm_per_unit);
     move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
                  : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
                                                       : TPC_CONTINUOUS;
     move->tolerance = move->mode != TPC_CONTINUOUS ? 0.0 : tp->tolerance > 0.0 ? tp->tolerance : module_tolerance();
     move->rapid = from->canon == EMC_MOTION_TYPE_TRAVERSE && !synced;
-    move->stands_before = stands_before(from, move->rapid, synced);
+    move->stands_before = stands_before(from, move->rapid, synced, move->pitch);
     move->stops = from->indexer != -1;
     move->probes = from->canon == EMC_MOTION_TYPE_PROBING;
     to_array(end, move->to);
@@ -190,9 +194,10 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
     q->id = tp->nextId;
     q->canon = from->canon;
     q->indexer = from->indexer;
-    q->synced = synced ? tp->spindle.spindle_num + 1 : 0;
+    q->synced = synced;
+    q->pitch = move->pitch;
     q->rapid = move->rapid;
-    if (!q->rapid) feeds_synced = synced;
+    if (!q->rapid && !(q->pitch > 0.0)) feeds_synced = synced != 0;
     q->enables = from->enables;
     q->atspeed = from->atspeed;
     q->tag = *from->tag;
@@ -226,6 +231,10 @@ int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian centre, PmCartesian norm
     if (error != TP_ERR_OK) return error;
     const double length = sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
     if (!(length > 0.0)) return TP_ERR_GEOM;
+    if (tp->synchronized == TC_SYNC_POSITION) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: an arc cannot follow the spindle's position\n");
+        return TP_ERR_INVALID;
+    }
     struct tpc_move move;
     memset(&move, 0, sizeof move);
     move.arc = 1;
@@ -284,7 +293,7 @@ static void begin_moves(unsigned before) {
 static int may_begin(TP_STRUCT *tp) {
     if (!out.waits || locking != -1) return 0;
     const struct told *q = &told[out.pushed % tpc_capacity];
-    if (q->atspeed) {
+    if (q->atspeed || q->pitch > 0.0) {
         for (int s = 0; s < config->numSpindles; ++s) {
             if (!status->spindle_status[s].at_speed) {
                 tp->spindle.waiting_for_atspeed = q->id;
@@ -297,7 +306,7 @@ static int may_begin(TP_STRUCT *tp) {
         set_rotary_unlock(q->indexer, 1);
         if (!is_rotary_unlocked(q->indexer)) return 0;
     }
-    return 1;
+    return q->pitch > 0.0 ? tp_index_passed(tp, status, q->synced - 1, q->id) : 1;
 }
 
 static void show_move(TP_STRUCT *tp) {
@@ -323,7 +332,7 @@ static void override(struct tpc_input *in) {
     const int moves = out.first != out.last;
     unsigned n = out.first; /* the move with a feed that is under way, or the next one */
     for (int i = 0; i < 64 && moves && n + 1 != out.last && told[n % tpc_capacity].rapid; ++i) ++n;
-    const int synced = moves ? told[n % tpc_capacity].synced : 0;
+    const int synced = moves && !(told[n % tpc_capacity].pitch > 0.0) ? told[n % tpc_capacity].synced : 0;
     const double turns = synced ? fabs(status->spindle_status[synced - 1].spindleSpeedIn) / nominal_per_s : 1.0;
     tp_override(status, moves && told[out.first % tpc_capacity].rapid, turns, in);
 }
@@ -341,12 +350,15 @@ static void run(TP_STRUCT *tp) {
     override(&in);
     in.abort = tp->aborting;
     in.may_begin = may_begin(tp);
+    const int synced = told[out.first % tpc_capacity].synced;
+    if (synced) tp_tell_spindle(&status->spindle_status[synced - 1]);
     tpc_run(&in, &out);
     for (int k = 0; k < machine.axes; ++k) {
         if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
     }
     if (out.error != 0) give_up(tp, out.error);
     if (tp->aborting) {
+        tp_forget_index(tp, status);
         begun = out.last; /* what has not begun writes nothing, and an indexer stays as it is */
         locking = -1;
     }

@@ -34,6 +34,8 @@ struct tpc_move {
     double to[tpc_axes];
     double centre[3], normal[3], sweep_rad;
     double tolerance, feed;
+    double pitch; /* of a line that follows the spindle: units a revolution; 0: it does not. It begins at rest, after may_begin,
+                     unless another one is before it that does not stop */
 };
 
 struct tpc_input {
@@ -78,6 +80,8 @@ void tpc_begin(const struct tpc_machine *machine);
 /* Queues a move from where the last one ends. 0; or -1: it has no length and is left out; or the core's error. */
 int tpc_add(const struct tpc_move *move);
 const char *tpc_reason(int error);
+/* What the spindle has turned since its index, and its speed: before each period in which a move follows it. */
+void tpc_spindle(double turns, double turns_per_s);
 /* A servo period. */
 void tpc_run(const struct tpc_input *input, struct tpc_output *output);
 void tpc_tell(struct tpc_figures *figures);

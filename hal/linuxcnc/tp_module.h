@@ -50,6 +50,12 @@ void tp_override(const emcmot_status_t *status, int rapid, double turns, struct 
 void tp_show_rest(TP_STRUCT *tp, emcmot_status_t *status);
 void tp_show_speed(const TP_STRUCT *tp, emcmot_status_t *status, double speed); /* of this period, units/s */
 
+/* tp_spindle.c */
+/* Whether the spindle has passed its index since move `id` has waited for it. A hold counts before that, and not behind it. */
+int tp_index_passed(TP_STRUCT *tp, emcmot_status_t *status, int spindle, int id);
+void tp_forget_index(TP_STRUCT *tp, emcmot_status_t *status); /* no move waits for one any more */
+void tp_tell_spindle(const spindle_status_t *spindle);        /* to the core */
+
 /* tp_arc.c */
 /* The angle of an arc from its start to its end about the unit normal n; a and b: its ends from its centre. */
 double tp_sweep(const double *a, const double *b, const double *n, int turn);
