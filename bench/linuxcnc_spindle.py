@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Moves that follow the spindle (G33, G76) in LinuxCNC, headless and simulated: how far they are from revolutions x pitch.
+"""Moves that follow the spindle (G33, G76, G33.1) in LinuxCNC, headless and simulated: how far they are from revolutions x pitch.
 
   bench/linuxcnc_spindle.py [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--jerk 30000] [--period 1000]
-      [--wobble 0.03] [--hz 2] [--load 0.05] [--counts 2000] [--steer SEED] [--mode "G64 P0.01"] [--keep FOLDER] [--check UM]
+      [--wobble 0.03] [--hz 2] [--load 0.05] [--counts 2000] [--steer SEED] [--mode "G64 P0.01"] [--keep FOLDER] [--inch] [--check UM]
 
 Each axis has 100 mm/s and 1000 mm/s^2. The spindle (bench/linuxcnc_spindle.comp) changes its speed by --wobble to both sides --hz times a
-second, loses --load of it eleven revolutions behind the index, as where a cut begins, and has an encoder of --counts a revolution. A row is a
-move. Its error is what the axes are commanded, less true revolutions x pitch, in the same period: its mean, and the largest distance from
-0 and from the mean, from a quarter of the move to where it brakes for its end. Run-in: the time until the distance from the mean stays
-below 10 um. --steer holds, steps, changes overrides and the velocity limit at random times, and ends a third of the runs with an
-abort: none of it may change a move that follows the spindle but the abort. --check fails where the module exceeds a limit by 1e-4 or is more than UM off, or where an end is missed.
+second, loses --load of it eleven revolutions behind the index, as where a cut begins, and has an encoder of --counts a revolution. A row is
+a move. Its error is what the axes are commanded, less true revolutions x pitch, in the same period: its mean, and the largest distance from
+0 and from the mean, from a quarter of the move to where it brakes for its end. Of a tap it is that behind a quarter of its depth, in and
+out. Run-in: the time until the distance from the mean stays below 10 um. --steer holds, steps, changes overrides and the velocity limit at
+random times, and ends a third of the runs with an abort: nothing but the abort may change a move that follows the spindle. --check fails
+where the module exceeds a limit by 1e-4 or is more than UM off, or where an end is missed.
 """
 import argparse
 import pathlib
@@ -23,6 +24,7 @@ sys.path.insert(0, str(HERE))
 import linuxcnc_tp as tp # noqa: E402, it takes this folder off the path
 
 MOVES = [(300, 1.5, 20), (600, 1.0, 20), (600, 3.0, 40), (900, 1.5, 40), (1200, 2.0, 60), (1200, 0.5, 20)] # rpm, pitch, length
+TAP = 12 # depth
 SPINDLE = """loadrt linuxcnc_spindle
 addf linuxcnc-spindle servo-thread 1
 setp linuxcnc-spindle.wobble {o.wobble}
@@ -47,18 +49,28 @@ def program(mode):
         lines += [f"S{rpm} M3", "G4 P0.3", "G0 X0 Z0", f"G33 Z-{length} K{pitch}"]
         marks[len(lines)] = (rpm, pitch, length)
         lines += ["G0 X5"]
+    lines += ["S300 M3", "G4 P0.3", "G0 X0 Z0", f"G33.1 Z-{TAP} K1"]
+    marks[len(lines)] = (300, 1.0, TAP)
+    lines += ["G0 X1", f"G33.1 Z-{TAP} K0.7 I2"] # the spindle is as the first one left it, and turns back twice as fast
+    marks[len(lines)] = (300, 0.7, TAP)
     lines += ["S600 M3", "G4 P0.3", "G0 X20 Z0 G18", "G76 P1.5 Z-30 I-1 J0.2 R1.5 K0.8 Q29.5 H1 E1 L2"]
     marks[len(lines)] = (600, 1.5, 29)
     return "\n".join(lines + ["G0 X0 Z0", "M5", "M2", ""]), marks
 
 
-def followed(samples, line, pitch, length, period_s, rpm):
-    """mean, |error|, |error - mean| in um, run-in in s, end in um"""
+def followed(samples, line, pitch, length, period_s, rpm, taps):
+    """passes, then mean, |error|, |error - mean| in um, run-in in s, speed"""
     import numpy
 
     z = -samples[:, 2]
     goes = (samples[:, 4] == line) & (z > 1e-6) & (z < length - 1e-6) & (numpy.diff(z, prepend=0.0) > 0.0)
     edges = numpy.flatnonzero(numpy.diff(goes.astype(int), prepend=0, append=0))
+    if taps: # in, and back again
+        if not (z[samples[:, 4] == line] > length).any():
+            return None
+        deep = numpy.flatnonzero((samples[:, 4] == line) & (z > length / 4))
+        error = 1e3 * (z[deep] - pitch * samples[deep, 3])
+        return 1, error.mean(), abs(error).max(), abs(error - error.mean()).max(), 0.0, rpm / 60.0 * pitch
     passes = [slice(a, b) for a, b in zip(edges[::2], edges[1::2]) if b - a > 9 and z[b - 1] > length - 1]
     if not passes:
         return None
@@ -77,8 +89,9 @@ def main():
                                 ("hz", float, 2.0), ("load", float, 0.05), ("counts", int, 2000), ("steer", int, None), ("mode", str, "G64 P0.01"),
                                 ("keep", pathlib.Path, None), ("check", float, None), ("timeout", int, 120)):
         parser.add_argument("--" + name, type=kind, default=default)
+    parser.add_argument("--inch", action="store_true")
     options = parser.parse_args()
-    options.set, options.inch, options.indexer, options.linuxcnc = [], False, False, None
+    options.set, options.indexer, options.linuxcnc = [], False, None
     failed = False
     print("| planner | rpm | pitch | passes | speed mm/s | mean um | off by um | from the mean um | run-in s | velocity | acceleration | jerk | problem |\n" + "|---" * 13 + "|")
     text, marks = program(options.mode)
@@ -109,7 +122,7 @@ def main():
             if max(abs(p) for p in result["position"]) > 1e-6:
                 problem += f" it ends at {result['position'][:3]}"
             for line, (rpm, pitch, length) in marks.items():
-                found = followed(result["samples"], line, pitch, length, options.period * 1e-6, rpm)
+                found = followed(result["samples"], line, pitch, length, options.period * 1e-6, rpm, length == TAP)
                 if found is None and aborted:
                     continue
                 if found is None:

@@ -53,8 +53,8 @@ bool FollowedLeg::ease(const LegLimits& limits) noexcept {
 }
 
 // Without a jerk limit an acceleration may change from one limit to the other in a period.
-FollowedLeg::FollowedLeg(double length, const LegLimits& limits, double period_s) noexcept
-    : length_(length), period_s_(period_s), limits_(limits) {
+FollowedLeg::FollowedLeg(double length, const LegLimits& limits, double period_s, bool both_ways) noexcept
+    : length_(length), period_s_(period_s), limits_(limits), both_ways_(both_ways) {
     const double most = 2.0 * limits.acceleration / period_s;
     limits_.jerk = limits.jerk > 0.0 ? std::min(limits.jerk, most) : most;
 }
@@ -92,11 +92,11 @@ bool FollowedLeg::below(const LegState& s, double most_speed) const noexcept {
 
 bool FollowedLeg::forward(const LegState& s) const noexcept {
     const double falls = std::min(s.acceleration, 0.0);
-    return s.speed - falls * falls / (2.0 * limits_.jerk) >= 0.0;
+    return s.speed - falls * falls / (2.0 * limits_.jerk) >= (both_ways_ ? -limits_.velocity : 0.0);
 }
 
 bool FollowedLeg::stops(const LegState& s) const noexcept {
-    return stopped(s, never).at <= length_;
+    return both_ways_ || stopped(s, never).at <= length_;
 }
 
 double FollowedLeg::top_speed() const noexcept {
@@ -175,7 +175,7 @@ LegLimits SpindleSync::part_of(const Leg& leg, double part) noexcept {
 void SpindleSync::begin(const Leg& leg, double turns, double per_s) noexcept {
     watch_.start(turns - per_s * period_s_, per_s);
     leg_ = leg;
-    first_ = FollowedLeg(leg.length, part_of(leg, ending), period_s_);
+    first_ = FollowedLeg(leg.length, part_of(leg, ending), period_s_, leg.both_ways);
     from_ = 0.0;
     eased_ = true;
 }
@@ -213,6 +213,10 @@ void SpindleSync::run_joined() noexcept {
                     ratio * (leg_.pitch * watch_.per_s() - s.speed),
                     ratio * (leg_.pitch * watch_.per_s2() - s.acceleration)},
                    next_.limits.velocity * (1.0 - cap_ / leg_.limits.velocity));
+}
+
+void SpindleSync::go_on() noexcept {
+    first_.follow({2.0 * leg_.length + never, 0.0, 0.0}, leg_.limits.velocity);
 }
 
 void SpindleSync::brake() noexcept {

@@ -9,6 +9,8 @@
 // limits. So samples, and all their differences, keep them, however the spindle turns.
 #pragma once
 
+#include <cmath>
+
 namespace splinefeed::linuxcnc {
 
 struct LegLimits {
@@ -35,7 +37,8 @@ private:
 class FollowedLeg {
 public:
     FollowedLeg() = default;
-    FollowedLeg(double length, const LegLimits& limits, double period_s) noexcept;
+    /// @param both_ways it may turn back, and go beyond its end
+    FollowedLeg(double length, const LegLimits& limits, double period_s, bool both_ways = false) noexcept;
 
     void follow(const LegState& target, double most_speed) noexcept; ///< a period on; target: at its end
     void brake() noexcept;                                           ///< a period on, to rest
@@ -60,6 +63,7 @@ private:
     double length_ = 0.0, period_s_ = 0.001;
     LegLimits limits_{};
     LegState now_{};
+    bool both_ways_ = false;
     bool ends_ = false;
 };
 
@@ -72,6 +76,7 @@ public:
         double length = 0.0, pitch = 0.0; ///< mm, mm a revolution
         LegLimits limits{};
         bool shares = false;
+        bool both_ways = false;
     };
 
     void start(double period_s) noexcept;                            ///< nothing moves
@@ -81,11 +86,14 @@ public:
     void run(double turns) noexcept; ///< a period of the first leg
     void run_joined() noexcept;      ///< and of the next one, behind it
     void brake() noexcept;
+    void go_on() noexcept; ///< a period of the first leg to its end, without the spindle
     /// Whether the next leg may begin: the first one comes to its end, and no more than this is left of it.
     [[nodiscard]] bool may_join(double most_left) const noexcept;
     [[nodiscard]] bool joined() const noexcept { return joined_; }
     [[nodiscard]] bool rests() const noexcept { return first_.rests() && (!joined_ || second_.rests()); }
-    [[nodiscard]] bool too_fast() const noexcept { return watch_.per_s() * leg_.pitch > leg_.limits.velocity; }
+    [[nodiscard]] bool too_fast() const noexcept {
+        return std::fabs(watch_.per_s()) * leg_.pitch > leg_.limits.velocity;
+    }
     [[nodiscard]] const FollowedLeg& first() const noexcept { return first_; }
     [[nodiscard]] const FollowedLeg& second() const noexcept { return second_; }
 

@@ -39,6 +39,7 @@ struct told {
     EmcPose end;
     double vel;
     double pitch; /* of a move that follows the spindle's position */
+    double back;  /* how much faster it turns back from a tap; 0: no tap */
     int id, canon, indexer, synced, rapid;
     unsigned char enables;
     char atspeed;
@@ -52,10 +53,6 @@ static int locking = -1;      /* joint of an indexer that is to be locked before
 static struct tpc_machine machine;
 static int feeds_synced;      /* whether the newest move with a feed follows the spindle's speed */
 static int failed;            /* the core gave up the queue, and task does not know yet: no move is taken */
-
-static void to_array(const EmcPose *p, double *values) {
-    for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
-}
 
 static void read_limits(double period_s) {
 #ifdef SPLINEFEED_TP_JERK
@@ -95,7 +92,7 @@ static void all_over(TP_STRUCT *tp) {
 
 void tp_state_position(TP_STRUCT *tp) {
     double position[tpc_axes];
-    to_array(&tp->currentPos, position);
+    tp_to_array(&tp->currentPos, position);
     tpc_set(position);
     out.first = out.pushed = out.last;
     out.waits = failed = 0;
@@ -150,6 +147,7 @@ struct new_move { /* what tpAddLine and tpAddCircle have in common */
     unsigned char enables;
     char atspeed;
     struct state_tag_t *tag;
+    double back; /* of a tap */
 };
 
 /* Moves that follow the spindle's speed have the feed of this speed, 1/s. Their override makes it that of the true one. */
@@ -162,7 +160,7 @@ static int stands_before(const struct new_move *from, int rapid, int synced, dou
     const int empty = out.first == out.last;
     const struct told *newest = &told[(out.last - 1) % tpc_capacity];
     const int behind_indexer = locking != -1 || (!empty && newest->indexer != -1);
-    const int changes = pitch > 0.0 ? empty || !(newest->pitch > 0.0) || newest->synced != synced
+    const int changes = pitch > 0.0 ? empty || !(newest->pitch > 0.0) || newest->back > 0.0 || newest->synced != synced
                                     : !empty && !rapid && (synced != 0) != feeds_synced;
     return from->atspeed || from->indexer != -1 || behind_indexer || changes;
 }
@@ -181,7 +179,7 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
     move->stands_before = stands_before(from, move->rapid, synced, move->pitch);
     move->stops = from->indexer != -1;
     move->probes = from->canon == EMC_MOTION_TYPE_PROBING;
-    to_array(end, move->to);
+    tp_to_array(end, move->to);
     const int error = tpc_add(move);
     if (error == -1) return TP_ERR_ZERO_LENGTH;
     if (error != 0) {
@@ -189,13 +187,14 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
         return TP_ERR_INVALID;
     }
     struct told *q = &told[out.last % tpc_capacity];
-    q->end = *end;
+    q->end = move->taps ? tp->goalPos : *end; /* a tap ends where it begins */
     q->vel = from->vel;
     q->id = tp->nextId;
     q->canon = from->canon;
     q->indexer = from->indexer;
     q->synced = synced;
     q->pitch = move->pitch;
+    q->back = from->back;
     q->rapid = move->rapid;
     if (!q->rapid && !(q->pitch > 0.0)) feeds_synced = synced != 0;
     q->enables = from->enables;
@@ -203,7 +202,7 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
     q->tag = *from->tag;
     io[out.last % tpc_capacity] = tp->syncdio;
     ++out.last;
-    tp->goalPos = *end;
+    tp->goalPos = q->end;
     tp->nextId = q->id + 1;
     tp->done = 0;
     tp->depth = (int)(out.last - out.first);
@@ -219,7 +218,7 @@ int tpAddLine(TP_STRUCT *tp, EmcPose end, int canon, double vel, double max_vel,
     if (error != TP_ERR_OK) return error;
     struct tpc_move move;
     memset(&move, 0, sizeof move);
-    const struct new_move from = {canon, indexer, vel, max_vel, enables, atspeed, &tag};
+    const struct new_move from = {canon, indexer, vel, max_vel, enables, atspeed, &tag, 0.0};
     return append(tp, &end, &move, &from);
 }
 
@@ -248,16 +247,22 @@ int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian centre, PmCartesian norm
         b[k] = tp_coordinate(&end, k) - c[k];
     }
     move.sweep_rad = tp_sweep(a, b, n, turn);
-    const struct new_move from = {canon, -1, vel, max_vel, enables, atspeed, &tag};
+    const struct new_move from = {canon, -1, vel, max_vel, enables, atspeed, &tag, 0.0};
     return append(tp, &end, &move, &from);
 }
 
 int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double max_vel, double acc TP_JERK_PARAMETER,
                   unsigned char enables, double scale, struct state_tag_t tag) {
-    (void)tp, (void)end, (void)vel, (void)max_vel, (void)acc, (void)enables, (void)scale, (void)tag;
+    (void)acc;
     TP_JERK_UNUSED;
-    rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: rigid tapping (G33.1) is not done\n");
-    return TP_ERR_INVALID;
+    const int error = refused(tp, &end);
+    if (error != TP_ERR_OK) return error;
+    if (tp->synchronized != TC_SYNC_POSITION) return TP_ERR_INVALID;
+    struct tpc_move move;
+    memset(&move, 0, sizeof move);
+    move.taps = 1;
+    const struct new_move from = {EMC_MOTION_TYPE_FEED, -1, vel, max_vel, enables, 1, &tag, scale > 0.0 ? scale : 1.0};
+    return append(tp, &end, &move, &from);
 }
 
 /* ------------------------------------------------------------------ a servo period */
@@ -353,6 +358,7 @@ static void run(TP_STRUCT *tp) {
     const int synced = told[out.first % tpc_capacity].synced;
     if (synced) tp_tell_spindle(&status->spindle_status[synced - 1]);
     tpc_run(&in, &out);
+    if (out.reverses && synced) tp_reverse(&status->spindle_status[synced - 1], told[before % tpc_capacity].back, out.reverses);
     for (int k = 0; k < machine.axes; ++k) {
         if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
     }

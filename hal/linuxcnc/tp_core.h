@@ -36,6 +36,7 @@ struct tpc_move {
     double tolerance, feed;
     double pitch; /* of a line that follows the spindle: units a revolution; 0: it does not. It begins at rest, after may_begin,
                      unless another one is before it that does not stop */
+    int taps; /* it follows the spindle to its end and back to where it began: the next move begins there */
 };
 
 struct tpc_input {
@@ -53,6 +54,7 @@ struct tpc_output {
                                      newest. Nothing is queued where first == last, and then the machine stands. */
     int waits;                    /* the machine stands before move `pushed`, until may_begin */
     int complete;                 /* it has come to the end of the newest move, and stands; for one period */
+    int reverses; /* for one period: 1: the spindle is to turn back, at the end of a tap; 2: as before, at its start */
     const char *error;            /* why the moves are not travelled: it brakes on its path and forgets them; for one
                                      period. 0: nothing is wrong */
 };

@@ -124,6 +124,7 @@ void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
 void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     const Mm before = at_;
     output.complete = 0;
+    output.reverses = 0;
     ++idle_;
     if (syncs_) {
         run_synced(input, output);

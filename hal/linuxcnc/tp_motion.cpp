@@ -157,6 +157,11 @@ int TpMotion::add(const tpc_move& from) noexcept {
     out.stands_before = from.stands_before != 0;
     out.pitch_mm = from.pitch * machine_.mm_per_unit;
     out.probes = from.probes != 0;
+    out.taps = from.taps != 0;
+    if (out.taps) {
+        out.bottom = out.to;
+        out.to = end_;
+    }
     end_ = out.to;
     ++last_;
     idle_ = 0;
@@ -169,6 +174,7 @@ void TpMotion::begin(const tpc_machine& machine) noexcept {
     share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
     if (move(first_).pitch_mm > 0.0) {
         syncs_ = waits_ = true;
+        tap_ = Tap::in;
         sync_.start(machine.period_s);
         return;
     }

@@ -36,6 +36,8 @@ struct QueuedMove {
     Mm out{};
     double length_mm = 0.0;
     double pitch_mm = 0.0; ///< of a move that follows the spindle
+    Mm bottom{};           ///< of a tap
+    bool taps = false;
     bool stands_before = false;
     bool probes = false;
 };
@@ -84,6 +86,7 @@ private:
     [[nodiscard]] double left_to_join() noexcept;
     void run_synced(const tpc_input& input, tpc_output& output) noexcept;
     void follow_spindle() noexcept;
+    void tap(tpc_output& output) noexcept;
     [[nodiscard]] Mm place() const noexcept;
     void come_to(unsigned n, const Mm& at) noexcept;
     void tell(const Mm& before, tpc_output& output) noexcept;
@@ -134,8 +137,9 @@ private:
     bool sent_abort_ = false;
     bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
-    bool syncs_ = false;    // or a move that follows the spindle
-    bool waits_ = false;    // at standstill before move pushed_
+    enum class Tap { in, back, stops, returns } tap_ = Tap::in;
+    bool syncs_ = false; // or a move that follows the spindle
+    bool waits_ = false; // at standstill before move pushed_
     bool may_begin_ = false;
     bool closed_ = false; // the path ends at a stop, so nothing can change what is planned to there
     bool has_now_ = false;

@@ -23,8 +23,11 @@ int tp_index_passed(TP_STRUCT *tp, emcmot_status_t *status, int spindle, int id)
     return 0;
 }
 
-/* LinuxCNC has the speed in revolutions a minute. */
+/* motion.h says that the speed is in revolutions a minute; motmod copies HAL's pin, which has them a second. */
 void tp_tell_spindle(const spindle_status_t *spindle) {
     const double turns = spindle->spindleRevs;
-    tpc_spindle(spindle->direction < 0 ? -turns : turns, fabs(spindle->spindleSpeedIn) / 60.0);
+    tpc_spindle(spindle->direction < 0 ? -turns : turns, fabs(spindle->spindleSpeedIn));
 }
+
+/* Its direction stays what the program says, so its turns are counted down on the way back. */
+void tp_reverse(spindle_status_t *spindle, double back, int turn) { spindle->speed *= turn == 1 ? -back : -1.0 / back; }

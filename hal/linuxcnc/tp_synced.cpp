@@ -10,19 +10,22 @@ namespace splinefeed::linuxcnc {
 // Lengths are those of X Y Z, by which a pitch is meant; without them, of all axes.
 SpindleSync::Leg TpMotion::leg(unsigned n, const Mm& from) noexcept {
     const QueuedMove& here = move(n);
+    const bool to_bottom = here.taps && tap_ != Tap::returns;
+    const Mm& to = to_bottom ? here.bottom : here.to;
     double xyz_sq = 0.0;
     double all_sq = 0.0;
     for (const unsigned k : indices(machine_.axes)) {
-        const double way = here.to[k] - from[k];
+        const double way = to[k] - from[k];
         all_sq += way * way;
         xyz_sq += k < 3 ? way * way : 0.0;
     }
     SpindleSync::Leg out;
     out.length = std::sqrt(xyz_sq > 0.0 ? xyz_sq : all_sq);
     out.pitch = here.pitch_mm;
+    out.both_ways = to_bottom;
     out.limits.velocity = out.limits.acceleration = out.limits.jerk = largest<double>();
     for (const unsigned k : indices(machine_.axes)) {
-        const double part = std::fabs(here.to[k] - from[k]) / out.length / scale(k);
+        const double part = std::fabs(to[k] - from[k]) / out.length / scale(k);
         if (part > 0.0) {
             out.limits.velocity = smaller(out.limits.velocity, machine_.velocity[k] / part);
             out.limits.acceleration = smaller(out.limits.acceleration, machine_.acceleration[k] / part);
@@ -72,11 +75,14 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     }
     if (stops) {
         sync_.brake();
+    } else if (move(first_).taps) {
+        tap(output);
     } else {
         follow_spindle();
     }
+    const bool to_bottom = move(first_).taps && tap_ != Tap::returns;
     for (const unsigned k : indices(machine_.axes)) {
-        const double corner = move(first_).to[k];
+        const double corner = to_bottom ? move(first_).bottom[k] : move(first_).to[k];
         at_[k] = sync_from_[k] + (corner - sync_from_[k]) * sync_.first().part();
         at_[k] += sync_.joined() ? (move(first_ + 1U).to[k] - corner) * sync_.second().part() : 0.0;
     }
@@ -102,11 +108,42 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     }
 }
 
+// In with the spindle, back with it when it turns back, and from where the machine then stops to where it began.
+void TpMotion::tap(tpc_output& output) noexcept {
+    switch (tap_) {
+    case Tap::in:
+        follow_spindle();
+        if (sync_.first().left() <= 0.0) {
+            tap_ = Tap::back;
+            output.reverses = 1;
+        }
+        break;
+    case Tap::back:
+        follow_spindle();
+        if (sync_.first().part() <= 0.0) {
+            tap_ = Tap::stops;
+            output.reverses = 2;
+        }
+        break;
+    case Tap::stops:
+        if (sync_.rests()) {
+            tap_ = Tap::returns;
+            sync_from_ = at_;
+            sync_.begin(leg(first_, at_), 0.0, 0.0);
+        }
+        sync_.brake();
+        break;
+    case Tap::returns: sync_.go_on(); break;
+    }
+}
+
 void TpMotion::follow_spindle() noexcept {
-    sync_.run(turns_);
     if (sync_.too_fast()) {
         fail("the spindle is too fast for its pitch: an axis would exceed its velocity");
+        sync_.brake();
+        return;
     }
+    sync_.run(turns_);
     if (goes_on(first_ + 1U) && sync_.may_join(left_to_join())) {
         sync_.join(leg(first_ + 1U, move(first_).to));
         ++pushed_;
