@@ -116,8 +116,6 @@ net prep iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net chng iocontrol.0.tool-change => iocontrol.0.tool-changed
 net atspeed spindle.0.on => spindle.0.at-speed
 """
-
-
 INDEXER_HAL = """loadrt timedelay count=1
 addf timedelay.0 servo-thread
 setp timedelay.0.on-delay 0.15
@@ -160,7 +158,7 @@ def write_machine(folder, axes, options, tpmod):
     os.chmod(folder / "driver.py", 0o755)
 
 
-def run(program, axes, options, module, parameters, actions):
+def run(program, axes, options, module, parameters, actions, components=[]):
     """One run: what the driver tells, with the samples as an array of a row a period."""
     import numpy
 
@@ -168,10 +166,11 @@ def run(program, axes, options, module, parameters, actions):
         folder = pathlib.Path(name) / "work"
         folder.mkdir()
         modules = ""
-        if module:
+        if module or components:
             modules = pathlib.Path(name) / "modules"
             shutil.copytree(modules_of(options), modules)
-            shutil.copy(module, modules / "splinefeed_tp.so")
+            for path, so in ([(module, "splinefeed_tp.so")] if module else []) + [(path, path.name) for path in components]:
+                shutil.copy(path, modules / so)
             subprocess.run(["chmod", "-R", "a+rX", name], check=True)
         write_machine(folder, axes, options, module and f"splinefeed_tp axes={axes} inch={int(options.inch)} {parameters}")
         (folder / "program.ngc").write_text(program)

@@ -38,6 +38,8 @@ void tpMotData(emcmot_status_t *s, emcmot_config_t *c) {
 struct told {
     EmcPose end;
     double vel;
+    double pitch; /* of a move that follows the spindle's position */
+    double back;  /* how much faster it turns back from a tap; 0: no tap */
     int id, canon, indexer, synced, rapid;
     unsigned char enables;
     char atspeed;
@@ -51,10 +53,6 @@ static int locking = -1;      /* joint of an indexer that is to be locked before
 static struct tpc_machine machine;
 static int feeds_synced;      /* whether the newest move with a feed follows the spindle's speed */
 static int failed;            /* the core gave up the queue, and task does not know yet: no move is taken */
-
-static void to_array(const EmcPose *p, double *values) {
-    for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
-}
 
 static void read_limits(double period_s) {
 #ifdef SPLINEFEED_TP_JERK
@@ -94,7 +92,7 @@ static void all_over(TP_STRUCT *tp) {
 
 void tp_state_position(TP_STRUCT *tp) {
     double position[tpc_axes];
-    to_array(&tp->currentPos, position);
+    tp_to_array(&tp->currentPos, position);
     tpc_set(position);
     out.first = out.pushed = out.last;
     out.waits = failed = 0;
@@ -111,7 +109,7 @@ int tpClear(TP_STRUCT *tp) {
     tp->synchronized = 0;
     tp->uu_per_rev = 0.0;
     tp->spindle.waiting_for_atspeed = MOTION_INVALID_ID;
-    tp->spindle.waiting_for_index = MOTION_INVALID_ID;
+    tp_forget_index(tp, status);
     status->motionFlag |= EMCMOT_MOTION_INPOS_BIT;
     tp_clear_io(tp);
     return TP_ERR_OK;
@@ -133,10 +131,6 @@ int tpCreate(TP_STRUCT *tp, int size, int id) {
 /* ------------------------------------------------------------------ new moves */
 static int refused(TP_STRUCT *tp, const EmcPose *end) {
     if (tp == 0 || tp->aborting || failed || out.last - out.first >= tpc_capacity) return TP_ERR_FAIL;
-    if (tp->synchronized == TC_SYNC_POSITION) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: moves that follow the spindle's position (G33, G76) are not done\n");
-        return TP_ERR_INVALID;
-    }
     for (int k = 0; k < tpc_axes; ++k) {
         if (!module_has_axis(k) && fabs(tp_coordinate(end, k) - tp_coordinate(&tp->goalPos, k)) > 1e-9) {
             rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: axis %c moves, but the module's parameter axes does not name it\n",
@@ -153,31 +147,39 @@ struct new_move { /* what tpAddLine and tpAddCircle have in common */
     unsigned char enables;
     char atspeed;
     struct state_tag_t *tag;
+    double back; /* of a tap */
 };
 
 /* Moves that follow the spindle's speed have the feed of this speed, 1/s. Their override makes it that of the true one. */
 static const double nominal_per_s = 1000.0;
 
 /* Whether the machine has to stand before a move: until the spindle has its speed, or an indexer is unlocked or locked.
- * And where moves begin or end to follow the spindle, because there is one override for all feeds. */
-static int stands_before(const struct new_move *from, int rapid, int synced) {
+ * And where moves begin or end to follow the spindle, because there is one override for all feeds. Moves that follow its
+ * position begin at its index, but behind another one of theirs. */
+static int stands_before(const struct new_move *from, int rapid, int synced, double pitch) {
     const int empty = out.first == out.last;
-    const int behind_indexer = locking != -1 || (!empty && told[(out.last - 1) % tpc_capacity].indexer != -1);
-    return from->atspeed || from->indexer != -1 || behind_indexer || (!empty && !rapid && synced != feeds_synced);
+    const struct told *newest = &told[(out.last - 1) % tpc_capacity];
+    const int behind_indexer = locking != -1 || (!empty && newest->indexer != -1);
+    const int changes = pitch > 0.0 ? empty || !(newest->pitch > 0.0) || newest->back > 0.0 || newest->synced != synced
+                                    : !empty && !rapid && (synced != 0) != feeds_synced;
+    return from->atspeed || from->indexer != -1 || behind_indexer || changes;
 }
 
 static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, const struct new_move *from) {
-    const int synced = tp->synchronized == TC_SYNC_VELOCITY;
-    move->feed = synced ? tp->uu_per_rev * nominal_per_s : tp_feed(from->canon, from->vel, from->max_vel, from->tag, machine.mm_per_unit);
+    const int synced = tp->synchronized != TC_SYNC_NONE ? tp->spindle.spindle_num + 1 : 0;
+    move->pitch = tp->synchronized == TC_SYNC_POSITION ? fabs(tp->uu_per_rev) : 0.0;
+    move->feed = synced && !(move->pitch > 0.0)
+                     ? tp->uu_per_rev * nominal_per_s
+                     : tp_feed(from->canon, from->vel, from->max_vel, from->tag, machine.mm_per_unit);
     move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
                  : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
                                                       : TPC_CONTINUOUS;
     move->tolerance = move->mode != TPC_CONTINUOUS ? 0.0 : tp->tolerance > 0.0 ? tp->tolerance : module_tolerance();
     move->rapid = from->canon == EMC_MOTION_TYPE_TRAVERSE && !synced;
-    move->stands_before = stands_before(from, move->rapid, synced);
+    move->stands_before = stands_before(from, move->rapid, synced, move->pitch);
     move->stops = from->indexer != -1;
     move->probes = from->canon == EMC_MOTION_TYPE_PROBING;
-    to_array(end, move->to);
+    tp_to_array(end, move->to);
     const int error = tpc_add(move);
     if (error == -1) return TP_ERR_ZERO_LENGTH;
     if (error != 0) {
@@ -185,20 +187,22 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
         return TP_ERR_INVALID;
     }
     struct told *q = &told[out.last % tpc_capacity];
-    q->end = *end;
+    q->end = move->taps ? tp->goalPos : *end; /* a tap ends where it begins */
     q->vel = from->vel;
     q->id = tp->nextId;
     q->canon = from->canon;
     q->indexer = from->indexer;
-    q->synced = synced ? tp->spindle.spindle_num + 1 : 0;
+    q->synced = synced;
+    q->pitch = move->pitch;
+    q->back = from->back;
     q->rapid = move->rapid;
-    if (!q->rapid) feeds_synced = synced;
+    if (!q->rapid && !(q->pitch > 0.0)) feeds_synced = synced != 0;
     q->enables = from->enables;
     q->atspeed = from->atspeed;
     q->tag = *from->tag;
     io[out.last % tpc_capacity] = tp->syncdio;
     ++out.last;
-    tp->goalPos = *end;
+    tp->goalPos = q->end;
     tp->nextId = q->id + 1;
     tp->done = 0;
     tp->depth = (int)(out.last - out.first);
@@ -214,7 +218,7 @@ int tpAddLine(TP_STRUCT *tp, EmcPose end, int canon, double vel, double max_vel,
     if (error != TP_ERR_OK) return error;
     struct tpc_move move;
     memset(&move, 0, sizeof move);
-    const struct new_move from = {canon, indexer, vel, max_vel, enables, atspeed, &tag};
+    const struct new_move from = {canon, indexer, vel, max_vel, enables, atspeed, &tag, 0.0};
     return append(tp, &end, &move, &from);
 }
 
@@ -226,6 +230,10 @@ int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian centre, PmCartesian norm
     if (error != TP_ERR_OK) return error;
     const double length = sqrt(normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
     if (!(length > 0.0)) return TP_ERR_GEOM;
+    if (tp->synchronized == TC_SYNC_POSITION) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: an arc cannot follow the spindle's position\n");
+        return TP_ERR_INVALID;
+    }
     struct tpc_move move;
     memset(&move, 0, sizeof move);
     move.arc = 1;
@@ -239,16 +247,22 @@ int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian centre, PmCartesian norm
         b[k] = tp_coordinate(&end, k) - c[k];
     }
     move.sweep_rad = tp_sweep(a, b, n, turn);
-    const struct new_move from = {canon, -1, vel, max_vel, enables, atspeed, &tag};
+    const struct new_move from = {canon, -1, vel, max_vel, enables, atspeed, &tag, 0.0};
     return append(tp, &end, &move, &from);
 }
 
 int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double max_vel, double acc TP_JERK_PARAMETER,
                   unsigned char enables, double scale, struct state_tag_t tag) {
-    (void)tp, (void)end, (void)vel, (void)max_vel, (void)acc, (void)enables, (void)scale, (void)tag;
+    (void)acc;
     TP_JERK_UNUSED;
-    rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: rigid tapping (G33.1) is not done\n");
-    return TP_ERR_INVALID;
+    const int error = refused(tp, &end);
+    if (error != TP_ERR_OK) return error;
+    if (tp->synchronized != TC_SYNC_POSITION) return TP_ERR_INVALID;
+    struct tpc_move move;
+    memset(&move, 0, sizeof move);
+    move.taps = 1;
+    const struct new_move from = {EMC_MOTION_TYPE_FEED, -1, vel, max_vel, enables, 1, &tag, scale > 0.0 ? scale : 1.0};
+    return append(tp, &end, &move, &from);
 }
 
 /* ------------------------------------------------------------------ a servo period */
@@ -284,7 +298,7 @@ static void begin_moves(unsigned before) {
 static int may_begin(TP_STRUCT *tp) {
     if (!out.waits || locking != -1) return 0;
     const struct told *q = &told[out.pushed % tpc_capacity];
-    if (q->atspeed) {
+    if (q->atspeed || q->pitch > 0.0) {
         for (int s = 0; s < config->numSpindles; ++s) {
             if (!status->spindle_status[s].at_speed) {
                 tp->spindle.waiting_for_atspeed = q->id;
@@ -297,7 +311,7 @@ static int may_begin(TP_STRUCT *tp) {
         set_rotary_unlock(q->indexer, 1);
         if (!is_rotary_unlocked(q->indexer)) return 0;
     }
-    return 1;
+    return q->pitch > 0.0 ? tp_index_passed(tp, status, q->synced - 1, q->id) : 1;
 }
 
 static void show_move(TP_STRUCT *tp) {
@@ -323,7 +337,7 @@ static void override(struct tpc_input *in) {
     const int moves = out.first != out.last;
     unsigned n = out.first; /* the move with a feed that is under way, or the next one */
     for (int i = 0; i < 64 && moves && n + 1 != out.last && told[n % tpc_capacity].rapid; ++i) ++n;
-    const int synced = moves ? told[n % tpc_capacity].synced : 0;
+    const int synced = moves && !(told[n % tpc_capacity].pitch > 0.0) ? told[n % tpc_capacity].synced : 0;
     const double turns = synced ? fabs(status->spindle_status[synced - 1].spindleSpeedIn) / nominal_per_s : 1.0;
     tp_override(status, moves && told[out.first % tpc_capacity].rapid, turns, in);
 }
@@ -341,12 +355,16 @@ static void run(TP_STRUCT *tp) {
     override(&in);
     in.abort = tp->aborting;
     in.may_begin = may_begin(tp);
+    const int synced = told[out.first % tpc_capacity].synced;
+    if (synced) tp_tell_spindle(&status->spindle_status[synced - 1]);
     tpc_run(&in, &out);
+    if (out.reverses && synced) tp_reverse(&status->spindle_status[synced - 1], told[before % tpc_capacity].back, out.reverses);
     for (int k = 0; k < machine.axes; ++k) {
         if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
     }
     if (out.error != 0) give_up(tp, out.error);
     if (tp->aborting) {
+        tp_forget_index(tp, status);
         begun = out.last; /* what has not begun writes nothing, and an indexer stays as it is */
         locking = -1;
     }

@@ -36,6 +36,10 @@ const char* tpc_reason(int error) {
     return splinefeed::describe(static_cast<splinefeed::Error>(error));
 }
 
+void tpc_spindle(double turns, double turns_per_s) {
+    motion.spindle(turns, turns_per_s);
+}
+
 void tpc_run(const tpc_input* input, tpc_output* output) {
     motion.run(*input, *output);
 }

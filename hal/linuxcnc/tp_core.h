@@ -34,6 +34,9 @@ struct tpc_move {
     double to[tpc_axes];
     double centre[3], normal[3], sweep_rad;
     double tolerance, feed;
+    double pitch; /* of a line that follows the spindle: units a revolution; 0: it does not. It begins at rest, after may_begin,
+                     unless another one is before it that does not stop */
+    int taps; /* it follows the spindle to its end and back to where it began: the next move begins there */
 };
 
 struct tpc_input {
@@ -51,6 +54,7 @@ struct tpc_output {
                                      newest. Nothing is queued where first == last, and then the machine stands. */
     int waits;                    /* the machine stands before move `pushed`, until may_begin */
     int complete;                 /* it has come to the end of the newest move, and stands; for one period */
+    int reverses; /* for one period: 1: the spindle is to turn back, at the end of a tap; 2: as before, at its start */
     const char *error;            /* why the moves are not travelled: it brakes on its path and forgets them; for one
                                      period. 0: nothing is wrong */
 };
@@ -78,6 +82,8 @@ void tpc_begin(const struct tpc_machine *machine);
 /* Queues a move from where the last one ends. 0; or -1: it has no length and is left out; or the core's error. */
 int tpc_add(const struct tpc_move *move);
 const char *tpc_reason(int error);
+/* What the spindle has turned since its index, and its speed: before each period in which a move follows it. */
+void tpc_spindle(double turns, double turns_per_s);
 /* A servo period. */
 void tpc_run(const struct tpc_input *input, struct tpc_output *output);
 void tpc_tell(struct tpc_figures *figures);

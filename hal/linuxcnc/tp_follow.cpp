@@ -124,12 +124,16 @@ void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
 void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     const Mm before = at_;
     output.complete = 0;
+    output.reverses = 0;
     ++idle_;
-    if (planning_) {
+    if (syncs_) {
+        run_synced(input, output);
+    } else if (planning_) {
         steer(input);
         plan();
         follow();
-        first_ = waits_ ? pushed_ : first_; // what is before it is over
+        first_ = waits_ ? pushed_ : first_;                                    // what is before it is over
+        planning_ = !waits_ || sent_abort_ || !(move(pushed_).pitch_mm > 0.0); // else it follows the spindle
         const bool aborted = sent_abort_ && stands() && trajectory_.activity() == Activity::aborted;
         const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
         if (complete) {

@@ -50,6 +50,14 @@ void tp_override(const emcmot_status_t *status, int rapid, double turns, struct 
 void tp_show_rest(TP_STRUCT *tp, emcmot_status_t *status);
 void tp_show_speed(const TP_STRUCT *tp, emcmot_status_t *status, double speed); /* of this period, units/s */
 
+/* tp_spindle.c */
+/* Whether the spindle has passed its index since move `id` has waited for it. A hold counts before that, and not behind it. */
+int tp_index_passed(TP_STRUCT *tp, emcmot_status_t *status, int spindle, int id);
+void tp_forget_index(TP_STRUCT *tp, emcmot_status_t *status); /* no move waits for one any more */
+void tp_tell_spindle(const spindle_status_t *spindle);        /* to the core */
+/* Turns it back, `back` times as fast; and again, to what it did before. turn: 1 or 2, see tpc_output.reverses */
+void tp_reverse(spindle_status_t *spindle, double back, int turn);
+
 /* tp_arc.c */
 /* The angle of an arc from its start to its end about the unit normal n; a and b: its ends from its centre. */
 double tp_sweep(const double *a, const double *b, const double *n, int turn);
@@ -62,6 +70,10 @@ static inline double *tp_part(EmcPose *p, int k) {
 static inline double tp_coordinate(const EmcPose *p, int k) {
     const double *const all[] = {&p->tran.x, &p->tran.y, &p->tran.z, &p->a, &p->b, &p->c, &p->u, &p->v, &p->w};
     return *all[k];
+}
+
+static inline void tp_to_array(const EmcPose *p, double *values) {
+    for (int k = 0; k < tpc_axes; ++k) values[k] = tp_coordinate(p, k);
 }
 
 #endif

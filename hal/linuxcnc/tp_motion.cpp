@@ -88,7 +88,7 @@ Mm TpMotion::mm_of(const double* position) const noexcept {
 void TpMotion::forget() noexcept {
     first_ = pushed_ = last_;
     ring_head_ = ring_count_ = 0;
-    planning_ = waits_ = has_now_ = unfinished_ = failed_ = false;
+    planning_ = syncs_ = waits_ = has_now_ = unfinished_ = failed_ = false;
     in_now_s_ = 0.0;
 }
 
@@ -155,7 +155,13 @@ int TpMotion::add(const tpc_move& from) noexcept {
     }
     out.length_mm = *way / chord_units_per_mm;
     out.stands_before = from.stands_before != 0;
+    out.pitch_mm = from.pitch * machine_.mm_per_unit;
     out.probes = from.probes != 0;
+    out.taps = from.taps != 0;
+    if (out.taps) {
+        out.bottom = out.to;
+        out.to = end_;
+    }
     end_ = out.to;
     ++last_;
     idle_ = 0;
@@ -166,6 +172,12 @@ int TpMotion::add(const tpc_move& from) noexcept {
 void TpMotion::begin(const tpc_machine& machine) noexcept {
     machine_ = machine;
     share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
+    if (move(first_).pitch_mm > 0.0) {
+        syncs_ = waits_ = true;
+        tap_ = Tap::in;
+        sync_.start(machine.period_s);
+        return;
+    }
     const char* const reason = begin_path();
     planning_ = reason == nullptr;
     if (!planning_) {
@@ -247,7 +259,7 @@ bool TpMotion::push_one(bool release) noexcept {
     QueuedMove& next = move(pushed_);
     if (next.stands_before) {
         waits_ = at_known_end();
-        if (!waits_ || !may_begin_) {
+        if (!waits_ || !may_begin_ || next.pitch_mm > 0.0) {
             return false;
         }
     }

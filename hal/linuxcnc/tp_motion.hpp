@@ -9,6 +9,7 @@
 // by the plan that there is, which ends at standstill (UnderrunPolicy::urgent).
 #pragma once
 
+#include "spindle_sync.hpp"
 #include "tp_core.h"
 #include "tp_paced.hpp"
 
@@ -34,6 +35,9 @@ struct QueuedMove {
     Mm in{}; ///< unit directions at its ends
     Mm out{};
     double length_mm = 0.0;
+    double pitch_mm = 0.0; ///< of a move that follows the spindle
+    Mm bottom{};           ///< of a tap
+    bool taps = false;
     bool stands_before = false;
     bool probes = false;
 };
@@ -42,9 +46,13 @@ class TpMotion {
 public:
     void create(const tpc_settings& settings, const tpc_machine& machine) noexcept;
     void set(const double* position) noexcept;
-    [[nodiscard]] bool begins() const noexcept { return !planning_ && first_ != last_; }
+    [[nodiscard]] bool begins() const noexcept { return !planning_ && !syncs_ && first_ != last_; }
     void begin(const tpc_machine& machine) noexcept;
     [[nodiscard]] int add(const tpc_move& move) noexcept;
+    void spindle(double turns, double per_s) noexcept {
+        turns_ = turns;
+        turns_per_s_ = per_s;
+    }
     void run(const tpc_input& input, tpc_output& output) noexcept;
     [[nodiscard]] const tpc_figures& figures() const noexcept { return figures_; }
 
@@ -72,6 +80,13 @@ private:
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
     [[nodiscard]] bool at_known_end() noexcept;
     void follow() noexcept;
+    [[nodiscard]] SpindleSync::Leg leg(unsigned n, const Mm& from) noexcept;
+    [[nodiscard]] bool goes_on(unsigned n) noexcept;
+    [[nodiscard]] bool overlaps(unsigned n) noexcept;
+    [[nodiscard]] double left_to_join() noexcept;
+    void run_synced(const tpc_input& input, tpc_output& output) noexcept;
+    void follow_spindle() noexcept;
+    void tap(tpc_output& output) noexcept;
     [[nodiscard]] Mm place() const noexcept;
     void come_to(unsigned n, const Mm& at) noexcept;
     void tell(const Mm& before, tpc_output& output) noexcept;
@@ -93,6 +108,7 @@ private:
     MotionLimits<double> limits_;
     PathRules<double> rules_;
     Trajectory<double> trajectory_;
+    SpindleSync sync_; // for moves that follow the spindle, in place of the trajectory
 
     // Sequence numbers of moves count up and wrap around.
     std::array<QueuedMove, tpc_capacity> queue_;
@@ -110,15 +126,20 @@ private:
     unsigned ring_count_ = 0;
     FeedSegment now_{}; // the segment that the machine is on
     double in_now_s_ = 0.0;
-    Mm at_{};               // where the machine is
-    Mm end_{};              // where the last queued move ends
+    Mm at_{};            // where the machine is
+    Mm end_{};           // where the last queued move ends
+    double turns_ = 0.0; // of the spindle
+    double turns_per_s_ = 0.0;
+    Mm sync_from_{};        // where the followed move under way begins
     PacedValue ratio_{1.0}; // 0: held, too
     PacedValue rapids_{1.0};
     PacedValue most_{0.0}; // feed, mm/s
     bool sent_abort_ = false;
     bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
-    bool waits_ = false;    // at standstill before move pushed_
+    enum class Tap { in, back, stops, returns } tap_ = Tap::in;
+    bool syncs_ = false; // or a move that follows the spindle
+    bool waits_ = false; // at standstill before move pushed_
     bool may_begin_ = false;
     bool closed_ = false; // the path ends at a stop, so nothing can change what is planned to there
     bool has_now_ = false;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # LinuxCNC with splinefeed_tp.so, headless and simulated: limits, ends and steering, at 1 ms and 0.25 ms, with and without a jerk limit, with planning starved in
-# a tenth of the periods.
+# a tenth of the periods. Threads and taps that follow a spindle.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 need linuxcnc unshare setpriv /usr/bin/python3
@@ -18,6 +18,8 @@ bench --planner stock,module --inch
 bench --planner module --period 250
 /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=2000000 \
     --refused "max_acceleration_mm_s2 must lie between 0.1 and 1000000"
+/usr/bin/python3 bench/linuxcnc_spindle.py --planner module --check 20 --inch
+/usr/bin/python3 bench/linuxcnc_spindle.py --planner module --check 20 --jerk 30000 --steer 4
 for jerk in 0 30000; do
     /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/indexer.ngc --check --planner module --indexer --jerk "$jerk"
     bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10

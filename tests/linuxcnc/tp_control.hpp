@@ -70,6 +70,7 @@ public:
         aborted = aborted || input.abort != 0;
         input.abort = out.first == out.last ? 0 : input.abort;
     }
+    void spindle(double turns, double per_s) { motion_->spindle(turns, per_s); }
     void set(double x) {
         const double position[tpc_axes] = {x};
         motion_->set(position);
