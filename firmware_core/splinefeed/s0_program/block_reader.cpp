@@ -228,11 +228,8 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         text = word;
         return ProgramError::number_has_exponent;
     }
-    if (letter == 'n') {
-        if (!out.has('n')) {
-            out.set('n', value, column);
-        }
-        return {};
+    if (letter == 'n' && out.has(letter)) {
+        return {}; // the first one counts
     }
     if (letter == 'g' || letter == 'm') {
         bool left_out = false;
