@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a servo period of splinefeed_tp.so takes, without LinuxCNC, as processor time: other programs do not count.
-// Interrupts, cold caches and a host below this system do. So the same periods are run fifteen times, with a clock that
-// counts how often it is asked, by which each run does the same in each period: what the quickest of a period took is
-// its work.
+// What a servo period of splinefeed_tp.so takes, without LinuxCNC, as processor time: other programs do not count, but
+// interrupts, cold caches and a host below this system do. So the same periods are repeated, with the same answers of
+// the clock, by which each repetition does the same: what the quickest of a period takes is its work.
 //
 //     cmake --build build/linuxcnc --target linuxcnc_period && build/linuxcnc/linuxcnc/linuxcnc_period
 #include "tp_core.h"
@@ -23,14 +22,14 @@ long long processor_ns() {
     return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
 }
 
-long long asked = 0;
-long long ask_ns = 0; // what is done between two looks at the clock, in the mean
-long long asking_ns() {
-    ++asked;
-    return processor_ns();
+std::vector<long long> answers; // of the clock
+std::size_t answered = 0;
+long long asked_ns() {
+    answers.push_back(processor_ns());
+    return answers.back();
 }
-long long counting_ns() {
-    return ++asked * ask_ns;
+long long repeated_ns() {
+    return answers.at(answered++);
 }
 
 tpc_machine machine_of(double period_s, double jerk) {
@@ -82,18 +81,14 @@ std::vector<double> run(const tpc_machine& machine, bool corners) {
 } // namespace
 
 /// The longest period, each by its quickest run.
-double longest_work_us(const tpc_machine& machine, const tpc_settings& settings, bool corners) {
-    std::vector<double> least;
+double longest_work_us(const tpc_machine& machine, tpc_settings settings, bool corners, std::vector<double> least) {
+    settings.now_ns = repeated_ns;
     for (int n = 0; n < 15; ++n) {
-        tpc_settings counting = settings;
-        counting.now_ns = counting_ns;
-        tpc_create(&counting, &machine);
+        answered = 0;
+        tpc_create(&settings, &machine);
         const std::vector<double> us = run(machine, corners);
-        if (n == 0) {
-            least = us;
-        }
-        if (us.size() != least.size()) {
-            return NAN; // they did not do the same
+        if (us.size() != least.size() || answered != answers.size()) {
+            return NAN; // it did not do the same
         }
         std::transform(us.begin(), us.end(), least.begin(), least.begin(),
                        [](double a, double b) { return std::min(a, b); });
@@ -102,26 +97,26 @@ double longest_work_us(const tpc_machine& machine, const tpc_settings& settings,
 }
 
 int main() {
+    answers.reserve(1U << 24);
     std::puts("| period us | jerk | path | mean us | 99 % | 99.9 % | longest | least of 15, longest "
               "|\n|---|---|---|---|---|---|---|---|");
     for (const double period_s : {0.001, 0.00025}) {
         for (const double jerk : {0.0, 30'000.0}) {
             const tpc_machine machine = machine_of(period_s, jerk);
-            const tpc_settings settings{asking_ns, 0.1, jerk > 0.0 ? 40 : 8, 0.01};
+            const tpc_settings settings{asked_ns, 0.1, jerk > 0.0 ? 40 : 8, 0.01};
             for (const bool corners : {false, true}) {
                 tpc_create(&settings, &machine);
-                asked = 0;
+                answers.clear();
                 std::vector<double> us = run(machine, corners);
                 double sum = 0.0;
                 for (const double one : us) {
                     sum += one;
                 }
-                ask_ns = static_cast<long long>(1e3 * sum / static_cast<double>(asked));
+                const double work_us = longest_work_us(machine, settings, corners, us);
                 std::sort(us.begin(), us.end());
                 std::printf("| %.0f | %.0f | %s | %.1f | %.0f | %.0f | %.0f | %.1f |\n", period_s * 1e6, jerk,
                             corners ? "corners" : "short lines", sum / static_cast<double>(us.size()),
-                            us[us.size() * 99 / 100], us[us.size() * 999 / 1000], us.back(),
-                            longest_work_us(machine, settings, corners));
+                            us[us.size() * 99 / 100], us[us.size() * 999 / 1000], us.back(), work_us);
             }
         }
     }
