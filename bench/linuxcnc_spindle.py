@@ -105,7 +105,7 @@ def main():
         for planner in options.planner.split(","):
             ours = planner == "module"
             parameters = f"jerk={options.jerk}" if options.jerk else ""
-            actions = [] if options.steer is None else tp.random_actions(options.steer, 25.0)
+            actions = [] if options.steer is None else tp.load(tp.HERE / "linuxcnc_actions.py").random_actions(options.steer, 25.0)
             aborted = any(what == "abort" for _, what, _ in actions)
             result = tp.run(text, "XYZ", options, options.module.resolve() if ours else None, parameters, actions, [comp.with_suffix(".so")])
             problem = "; ".join([result["problem"]] * bool(result["problem"]) + result["said"])

@@ -23,7 +23,6 @@ import importlib.util
 import json
 import os
 import pathlib
-import random
 import re
 import shutil
 import subprocess
@@ -227,31 +226,6 @@ def indexer_problem(samples, axes):
         " another axis moves beside it" if (numpy.delete(moves, a, 1).any(axis=1) & unlocked).any() else "")
 
 
-def random_actions(seed, seconds):
-    chance = random.Random(seed)
-    actions, t = [], 0.0
-    for _ in range(chance.randint(2, 10)):
-        t += chance.uniform(0.02, 0.3 * seconds)
-        what = chance.choice(["hold", "step", "override", "rapid", "limit", "adaptive"])
-        value = {"override": chance.choice([0.0, 0.3, 1.2, 2.0, chance.uniform(0.1, 2.0)]), "rapid": chance.uniform(0.1, 1.0),
-                 "limit": chance.uniform(5.0, 150.0), "adaptive": chance.uniform(0.0, 1.0)}.get(what, 0)
-        actions.append([t, what, value])
-        if what in ("hold", "step"):
-            t += chance.uniform(0.01, 0.4)
-            actions.append([t, "resume", 0])
-            if what == "step": # it only steps a program that pauses
-                actions[-2][1] = "hold"
-                actions.insert(-1, [t - 0.005, "step", 0])
-        elif value < 0.05:
-            t += chance.uniform(0.1, 0.4)
-            actions.append([t, what, 1.0])
-    actions += [[t + 0.05, "resume", 0], [t + 0.06, "override", 1.0], [t + 0.07, "adaptive", 1.0], [t + 0.08, "limit", 1000.0]]
-    if chance.random() < 0.33:
-        t += chance.uniform(0.05, 0.2 * seconds)
-        actions += [[t, "abort", 0], [t + 0.01, "mdi", "G1 X1 Y2 Z3 F3000"], [t + 0.02, "mdi", "G0 X0 Y0 Z0"]]
-    return actions
-
-
 def load(path):
     spec = importlib.util.spec_from_file_location(pathlib.Path(path).stem, path)
     module = importlib.util.module_from_spec(spec)
@@ -355,7 +329,7 @@ def main():
             ours = planner == "module"
             parameters = options.parameters + (f" jerk={options.jerk}" if options.jerk else "") + f" starve={options.starve}"
             steers = options.steer is not None
-            actions = random_actions(options.steer + seed, tool_s or 8.0) if steers else []
+            actions = load(HERE / "linuxcnc_actions.py").random_actions(options.steer + seed, tool_s or 8.0) if steers else []
             sent = begun_with("M52 P1", text) if steers else text
             result = run(sent, axes, options, options.module.resolve() if ours else None, parameters, actions)
             row = [program.name, planner]
