@@ -4,6 +4,7 @@
 
   bench/linuxcnc_spindle.py [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--jerk 30000] [--period 1000]
       [--wobble 0.03] [--hz 2] [--load 0.05] [--counts 2000] [--steer SEED] [--mode "G64 P0.01"] [--keep FOLDER] [--inch] [--check UM]
+      [--linuxcnc TREE]
 
 Each axis has 100 mm/s and 1000 mm/s^2. The spindle (bench/linuxcnc_spindle.comp) changes its speed by --wobble to both sides --hz times a
 second, loses --load of it eleven revolutions behind the index, as where a cut begins, and has an encoder of --counts a revolution. A row is
@@ -11,7 +12,7 @@ a move. Its error is what the axes are commanded, less true revolutions x pitch,
 0 and from the mean, from a quarter of the move to where it brakes for its end. Of a tap it is that behind a quarter of its depth, in and
 out. Run-in: the time until the distance from the mean stays below 10 um. --steer holds, steps, changes overrides and the velocity limit at
 random times, and ends a third of the runs with an abort: nothing but the abort may change a move that follows the spindle. --check fails
-where the module exceeds a limit by 1e-4 or is more than UM off, or where an end is missed.
+where the module exceeds a limit by 1e-4 or is more than UM off, or where an end is missed. --linuxcnc: as of bench/linuxcnc_tp.py.
 """
 import argparse
 import pathlib
@@ -87,11 +88,11 @@ def main():
     parser.add_argument("--module", type=pathlib.Path, default=HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so")
     for name, kind, default in (("planner", str, "stock,module"), ("jerk", int, 0), ("period", int, 1000), ("wobble", float, 0.03),
                                 ("hz", float, 2.0), ("load", float, 0.05), ("counts", int, 2000), ("steer", int, None), ("mode", str, "G64 P0.01"),
-                                ("keep", pathlib.Path, None), ("check", float, None), ("timeout", int, 120)):
+                                ("keep", pathlib.Path, None), ("check", float, None), ("linuxcnc", pathlib.Path, None), ("timeout", int, 120)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--inch", action="store_true")
     options = parser.parse_args()
-    options.set, options.indexer, options.linuxcnc = [], False, None
+    options.set, options.indexer = [], False
     failed = False
     print("| planner | rpm | pitch | passes | speed mm/s | mean um | off by um | from the mean um | run-in s | velocity | acceleration | jerk | problem |\n" + "|---" * 13 + "|")
     text, marks = program(options.mode)
@@ -99,7 +100,8 @@ def main():
         folder = pathlib.Path(name)
         comp = folder / "linuxcnc_spindle.comp"
         comp.write_text((HERE / comp.name).read_text())
-        subprocess.run(["halcompile", "--compile", comp.name], cwd=folder, check=True, capture_output=True)
+        compiler = options.linuxcnc / "bin/halcompile" if options.linuxcnc else "halcompile"
+        subprocess.run([compiler, "--compile", comp.name], cwd=folder, check=True, capture_output=True)
         options.hal = folder / "spindle.hal"
         options.hal.write_text(SPINDLE.format(o=options))
         for planner in options.planner.split(","):
