@@ -3,7 +3,7 @@
 """Random programs through headless LinuxCNC with splinefeed_tp.so: limits, tolerance, and cycle times beside those of the tool.
 
   bench/linuxcnc_random.py [--programs 300] [--seed 1] [--in-one 15] [--jobs 2] [--jerk 30000] [--period 1000]
-      [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--tool build/tool/bin/splinefeed]
+      [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--tool build/tool/bin/splinefeed] [--linuxcnc TREE]
 
 Lines, arcs and rapids in one of the three planes, as bench/tolerance.py makes them, with G61 or G64 P0.001 to P0.5 and Q0. LinuxCNC runs
 `in-one` of them in one file, with dwells and a rapid back between them, in real time. What each axis was told is cut at the dwells. A
@@ -120,14 +120,11 @@ def run_all(seeds, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name, default in (("programs", 300), ("seed", 1), ("in-one", 15), ("jobs", 2), ("jerk", 0), ("period", 1000), ("timeout", 900)):
+    for name, default in (("programs", 300), ("seed", 1), ("in-one", 15), ("jobs", 2)):
         parser.add_argument("--" + name, type=int, default=default)
-    parser.add_argument("--module", type=pathlib.Path, default=HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so")
     parser.add_argument("--tool", type=pathlib.Path, default=HERE.parent / "build/tool/bin/splinefeed")
-    parser.set_defaults(inch=False, indexer=False, hal=None, set=[])
-    options = parser.parse_args()
-    if linuxcnc_tp.shutil.which("linuxcnc") is None:
-        print("SKIPPED: there is no LinuxCNC (Debian: apt-get install linuxcnc-uspace)")
+    options = linuxcnc_tp.parsed(parser, 900)
+    if options is None:
         return 0
     rows = run_all(range(options.seed, options.seed + options.programs), options)
     again = [row[0] for row in rows if row[1] in (SLOW, LOST)]

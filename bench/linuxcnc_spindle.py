@@ -85,14 +85,13 @@ def followed(samples, line, pitch, length, period_s, rpm, taps):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--module", type=pathlib.Path, default=HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so")
-    for name, kind, default in (("planner", str, "stock,module"), ("jerk", int, 0), ("period", int, 1000), ("wobble", float, 0.03),
+    for name, kind, default in (("planner", str, "stock,module"), ("wobble", float, 0.03),
                                 ("hz", float, 2.0), ("load", float, 0.05), ("counts", int, 2000), ("steer", int, None), ("mode", str, "G64 P0.01"),
-                                ("keep", pathlib.Path, None), ("check", float, None), ("linuxcnc", pathlib.Path, None), ("timeout", int, 120)):
+                                ("keep", pathlib.Path, None), ("check", float, None)):
         parser.add_argument("--" + name, type=kind, default=default)
-    parser.add_argument("--inch", action="store_true")
-    options = parser.parse_args()
-    options.set, options.indexer = [], False
+    options = tp.parsed(parser, 120)
+    if options is None:
+        return 0
     failed = False
     print("| planner | rpm | pitch | passes | speed mm/s | mean um | off by um | from the mean um | run-in s | velocity | acceleration | jerk | problem |\n" + "|---" * 13 + "|")
     text, marks = program(options.mode)

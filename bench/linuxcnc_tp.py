@@ -297,24 +297,37 @@ def in_mode(text, mode):
     return replaced if n else begun_with(words, text)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("programs", nargs="+", type=pathlib.Path)
-    parser.add_argument("--module", type=pathlib.Path, default=HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so")
-    parser.add_argument("--planner", default="stock,module")
-    parser.add_argument("--axes", default="")
-    for name, kind, default in (("mode", str, ""), ("jerk", int, 0), ("period", int, 1000), ("parameters", str, ""), ("steer", int, None),
-                                ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
-                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None), ("linuxcnc", pathlib.Path, None), ("timeout", int, 300)):
+def parsed(parser, timeout_s):
+    """The arguments, with those of any run(); None where there is no LinuxCNC."""
+    for name, kind, default in (("module", pathlib.Path, HERE.parent / "build/linuxcnc/linuxcnc/splinefeed_tp.so"), ("linuxcnc", pathlib.Path, None),
+                                ("jerk", int, 0), ("period", int, 1000), ("timeout", int, timeout_s)):
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--inch", action="store_true")
+    parser.set_defaults(hal=None, indexer=False)
+    options = parser.parse_args()
+    if options.linuxcnc and not modules_of(options).is_dir():
+        parser.error(f"--linuxcnc {options.linuxcnc}: there is no {modules_of(options)}: build that source tree to run in place")
+    if not options.linuxcnc and shutil.which("linuxcnc") is None:
+        print("SKIPPED: there is no LinuxCNC (Debian: apt-get install linuxcnc-uspace)")
+        return None
+    return options
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", nargs="+", type=pathlib.Path)
+    parser.add_argument("--planner", default="stock,module")
+    parser.add_argument("--axes", default="")
+    for name, kind, default in (("mode", str, ""), ("parameters", str, ""), ("steer", int, None),
+                                ("runs", int, 1), ("starve", int, 0), ("judge", str, ""), ("canon", str, ""), ("tool", str, ""),
+                                ("refused", str, ""), ("keep", pathlib.Path, None), ("hal", pathlib.Path, None)):
+        parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--stops", action="store_true")
     parser.add_argument("--indexer", action="store_true")
     parser.add_argument("--check", action="store_true")
-    options = parser.parse_args()
-    if options.linuxcnc is None and shutil.which("linuxcnc") is None:
-        print("SKIPPED: there is no LinuxCNC (Debian: apt-get install linuxcnc-uspace)")
+    options = parsed(parser, 300)
+    if options is None:
         return 0
     print("| program | planner | s | tool, s | path, um | velocity | acceleration | jerk | mean us | max us | urgent | late | controller us: mean, 99.9 % | problem |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|")
