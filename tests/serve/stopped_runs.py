@@ -120,7 +120,7 @@ def main():
             return 1
         finally:
             server.end()
-    for way, took in times.items():
+    for way, took in ((way, took) for way, took in times.items() if took):
         print(f"{way:<12} {len(took):3} stops, median {1000 * statistics.median(took):4.0f} ms, at most {1000 * max(took):4.0f} ms")
     return 0
 
