@@ -68,8 +68,9 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
 }
 
 microseconds DriveServer::until_next(Clock::time_point now) const {
-    constexpr microseconds row{1000};
-    microseconds wait = row - microseconds(model_us(now) % 1000);
+    // Rows may be written late; what happens to the drive may not.
+    const microseconds longest(faults_.events.empty() ? 20000 : 1000);
+    microseconds wait = longest - microseconds(model_us(now)) % longest;
     if (faults_.lasts(DriveFaults::EventKind::flood, passed_s(now))) {
         wait = std::min(wait, flood_every);
     }

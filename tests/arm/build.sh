@@ -19,11 +19,16 @@ expressions() {
 
 # build_images CPU BUILD_DIRECTORY
 build_images() {
-    local without='' quintic_without=''
-    # One of the three, whose floating point unit makes it the quickest to compile for, builds all of the core.
+    local without='' quintic_without='' scalars='double;float;Fixed' quintic_scalars='double;float;Fixed'
+    # One of the three, whose floating point unit makes it the quickest to compile for, builds all of the core; each what its images use.
     if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then
         without=$(expressions tests/arm/unused_sources.txt)
-        if [[ $1 != cortex-m4f ]]; then quintic_without=$(expressions tests/arm/unused_quintic_sources.txt); fi
+        scalars='float;Fixed'
+        if [[ $1 != cortex-m4f ]]; then
+            quintic_without=$(expressions tests/arm/unused_quintic_sources.txt)
+            quintic_scalars=Fixed
+        fi
+        if [[ $1 == cortex-m3 ]]; then scalars=Fixed; fi
         # No firmware of it is operated by senders.
         if [[ $1 == cortex-m0 ]]; then quintic_without+='|/controller/|/s[2-5]_'; fi
     fi
@@ -32,7 +37,7 @@ build_images() {
     {
         flock 9
         cmake --preset arm -B "$2" -DSPLINEFEED_CPU="$1" -DSPLINEFEED_CORE_WITHOUT="$without" \
-            -DSPLINEFEED_QUINTIC_WITHOUT="$quintic_without"
+            -DSPLINEFEED_QUINTIC_WITHOUT="$quintic_without" -DSPLINEFEED_SCALARS="$scalars" -DSPLINEFEED_QUINTIC_SCALARS="$quintic_scalars"
         cmake --build "$2"
     } 9>"$2/lock"
 }

@@ -95,7 +95,7 @@ TEST_CASE("an axis that no search has found stands where the first motion behind
 
 TEST_CASE("a reset ends a search with one alarm, wherever the axes are, and behind it nothing is left", "[serve]") {
     // Between 370 and 400 ms z has found its switch, and stands on it for a millisecond, between two moves.
-    for (int ms = 10; ms < 3000; ms += whole_sweep() || (ms >= 370 && ms < 400) ? 1 : 120) {
+    for (int ms = 10; ms < 3000; ms += whole_sweep() || (ms >= 370 && ms < 400) ? 1 : 240) {
         CAPTURE(ms);
         OperatedLines machine(served_map, 0);
         machine.at_start_mm = {10.0, 5.0, -10.0};

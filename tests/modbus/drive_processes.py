@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Simulated drives as processes, and what they recorded."""
+import atexit
 import contextlib
 import os
 import shutil
@@ -14,6 +15,13 @@ TICKS_PER_S = 8e6
 FIRST_SEQUENCE = 1  # of a run; 0: positions are not the machine's yet
 
 
+def started(command, **options):
+    """A process that does not outlive this one, whatever fails."""
+    process = subprocess.Popen(command, **options)
+    atexit.register(process.kill)
+    return process
+
+
 class DriveProcess:
     """A program that plays a drive: it prints where it listens, and ends and writes its records at SIGTERM."""
 
@@ -22,7 +30,7 @@ class DriveProcess:
         self.axes = axes
         command = [*command, "--axes", str(axes), "--record", self.name + ".csv"]
         with open(self.name + ".err", "w", encoding="utf-8") as errors:
-            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=folder)
+            self.process = started(command, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=folder)
         self.line = self.process.stdout.readline()
 
     def tcp_address(self, keys="unit=1"):

@@ -13,7 +13,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "modbus"))
-from drive_processes import Drive  # noqa: E402
+from drive_processes import Drive, started  # noqa: E402
 
 
 class Failed(Exception):
@@ -25,8 +25,8 @@ class Server:
 
     def __init__(self, tool, folder, *options, machine):
         self.pty = os.path.join(folder, "machine_pty")
-        self.process = subprocess.Popen([tool, "serve", "-m", machine, "--tcp", "127.0.0.1:0", "--pty", self.pty, *options],
-                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = started([tool, "serve", "-m", machine, "--tcp", "127.0.0.1:0", "--pty", self.pty, *options],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
         self.process.stdout.readline()
 

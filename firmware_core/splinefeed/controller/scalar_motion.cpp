@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/controller/scalar_motion.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -320,9 +322,7 @@ Pull ScalarMotion<S>::next(FeedSegment& out, Supply supply) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class ScalarMotion<double>;
-template class ScalarMotion<float>;
-template class ScalarMotion<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ScalarMotion)
 #endif
 
 } // namespace splinefeed

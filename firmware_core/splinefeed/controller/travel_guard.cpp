@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/controller/travel_guard.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/curve_hull.hpp"
 
 namespace splinefeed {
@@ -37,9 +38,7 @@ Pull TravelGuard<S>::next(CurveSegment<S>& out) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class TravelGuard<double>;
-template class TravelGuard<float>;
-template class TravelGuard<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(TravelGuard)
 #endif
 
 } // namespace splinefeed

@@ -5,6 +5,7 @@
 //     F * (length in all axes) / (length that F counts).
 #include "splinefeed/s0_program/interpreter.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 #include <utility>
@@ -346,9 +347,7 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class Interpreter<double>;
-template class Interpreter<float>;
-template class Interpreter<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(Interpreter)
 #endif
 
 } // namespace splinefeed

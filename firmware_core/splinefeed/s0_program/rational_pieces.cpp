@@ -6,6 +6,7 @@
 //     b1 = b0 + C' h / 5,  b2 = 2 b1 - b0 + C'' h^2 / 20,  and mirrored.
 #include "splinefeed/s0_program/rational_pieces.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -127,9 +128,7 @@ void RationalPieces<S>::next(std::array<std::array<S, 6>, 3>& points) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class RationalPieces<double>;
-template class RationalPieces<float>;
-template class RationalPieces<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(RationalPieces)
 #endif
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/spline_points.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s1_blended_path/path_bezier.hpp"
 
 namespace splinefeed {
@@ -111,9 +112,7 @@ void SplinePoints<S>::fill_piece(const CurveSegment<S>& piece, PathElement<S>& o
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class SplinePoints<double>;
-template class SplinePoints<float>;
-template class SplinePoints<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(SplinePoints)
 #endif
 
 } // namespace splinefeed

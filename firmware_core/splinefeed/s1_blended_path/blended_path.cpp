@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/blended_path.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -361,9 +362,7 @@ Pull BlendedPath<S>::next(CurveSegment<S>& out) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class BlendedPath<double>;
-template class BlendedPath<float>;
-template class BlendedPath<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(BlendedPath)
 #endif
 
 } // namespace splinefeed

@@ -2,6 +2,7 @@
 #include "splinefeed/s1_blended_path/chain_fit.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/s1_blended_path/chain_state.hpp"
 
@@ -185,9 +186,7 @@ bool ChainFit<S>::reaches(std::uint64_t to, S limit) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class ChainFit<double>;
-template class ChainFit<float>;
-template class ChainFit<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ChainFit)
 #endif
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/chain_smoother.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/s1_blended_path/chain_fit.hpp"
 #include "splinefeed/s1_blended_path/chain_smoothing.hpp"
@@ -390,9 +391,7 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class ChainSmoother<double>;
-template class ChainSmoother<float>;
-template class ChainSmoother<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ChainSmoother)
 #endif
 
 } // namespace splinefeed

@@ -6,6 +6,7 @@
 #include "splinefeed/s1_blended_path/chain_smoothing.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -137,12 +138,11 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template void measure_last_point(ChainPoints<double>&, double) noexcept;
-template void measure_last_point(ChainPoints<float>&, float) noexcept;
-template void measure_last_point(ChainPoints<Fixed>&, Fixed) noexcept;
-template void smooth_point(ChainPoints<double>&, std::uint64_t) noexcept;
-template void smooth_point(ChainPoints<float>&, std::uint64_t) noexcept;
-template void smooth_point(ChainPoints<Fixed>&, std::uint64_t) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template void measure_last_point(ChainPoints<S>&, S) noexcept;                                                     \
+    template void smooth_point(ChainPoints<S>&, std::uint64_t) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 #endif
 
 } // namespace splinefeed

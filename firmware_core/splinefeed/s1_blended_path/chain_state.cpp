@@ -5,6 +5,7 @@
 // What is left out beyond five points counts less than 0.27^5 there.
 #include "splinefeed/s1_blended_path/chain_state.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -70,9 +71,10 @@ void chain_state(const ChainPoints<S>& points, std::uint64_t at, PathState<S>& o
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template void chain_state(const ChainPoints<double>&, std::uint64_t, PathState<double>&) noexcept;
-template void chain_state(const ChainPoints<float>&, std::uint64_t, PathState<float>&) noexcept;
-template void chain_state(const ChainPoints<Fixed>&, std::uint64_t, PathState<Fixed>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template void chain_state(const ChainPoints<S>&, std::uint64_t, PathState<S>&) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 #endif
 
 } // namespace splinefeed

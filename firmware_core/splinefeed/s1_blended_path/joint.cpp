@@ -9,6 +9,7 @@
 // moves is 0.0107 |K1 - K0| l^2.
 #include "splinefeed/s1_blended_path/joint.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -188,18 +189,12 @@ bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template Joint<double> decide_joint(const PathMove<double>&, const PathMove<double>&, PathMode,
-                                    const JointTolerances<double>&, int) noexcept;
-template bool fit_blend(const Joint<double>&, const PathMove<double>&, const PathMove<double>&, double, int,
-                        Blend<double>&) noexcept;
-template Joint<float> decide_joint(const PathMove<float>&, const PathMove<float>&, PathMode,
-                                   const JointTolerances<float>&, int) noexcept;
-template bool fit_blend(const Joint<float>&, const PathMove<float>&, const PathMove<float>&, float, int,
-                        Blend<float>&) noexcept;
-template Joint<Fixed> decide_joint(const PathMove<Fixed>&, const PathMove<Fixed>&, PathMode,
-                                   const JointTolerances<Fixed>&, int) noexcept;
-template bool fit_blend(const Joint<Fixed>&, const PathMove<Fixed>&, const PathMove<Fixed>&, Fixed, int,
-                        Blend<Fixed>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template Joint<S> decide_joint(const PathMove<S>&, const PathMove<S>&, PathMode, const JointTolerances<S>&,        \
+                                   int) noexcept;                                                                      \
+    template bool fit_blend(const Joint<S>&, const PathMove<S>&, const PathMove<S>&, S, int, Blend<S>&) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 #endif
 
 } // namespace splinefeed

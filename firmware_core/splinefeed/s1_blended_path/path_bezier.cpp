@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/path_bezier.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -162,9 +163,7 @@ S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexc
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class PathBezier<double>;
-template class PathBezier<float>;
-template class PathBezier<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(PathBezier)
 #endif
 
 } // namespace splinefeed

@@ -8,6 +8,7 @@
 #include "splinefeed/s1_blended_path/path_move.hpp"
 
 #include "splinefeed/number/angle.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -328,9 +329,7 @@ void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, Path
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class PathMove<double>;
-template class PathMove<float>;
-template class PathMove<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(PathMove)
 #endif
 
 } // namespace splinefeed

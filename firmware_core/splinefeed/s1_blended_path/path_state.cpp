@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/path_state.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -21,12 +23,10 @@ void quintic_between(const PathState<S>& from, const PathState<S>& to, S first, 
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template void quintic_between(const PathState<double>&, const PathState<double>&, double, double, int,
-                              PerAxis<PerDegree<double>>&) noexcept;
-template void quintic_between(const PathState<float>&, const PathState<float>&, float, float, int,
-                              PerAxis<PerDegree<float>>&) noexcept;
-template void quintic_between(const PathState<Fixed>&, const PathState<Fixed>&, Fixed, Fixed, int,
-                              PerAxis<PerDegree<Fixed>>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template void quintic_between(const PathState<S>&, const PathState<S>&, S, S, int, PerAxis<PerDegree<S>>&) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 #endif
 
 } // namespace splinefeed

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -93,9 +95,7 @@ Pull TolerancePath<S>::next(CurveSegment<S>& out) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class TolerancePath<double>;
-template class TolerancePath<float>;
-template class TolerancePath<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(TolerancePath)
 #endif
 
 } // namespace splinefeed

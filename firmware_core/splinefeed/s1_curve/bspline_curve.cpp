@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/bspline_curve.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 // Whether the segment that starts at vertex `at` is travelled. On a closed curve each side (degree 3 and 1) and each
@@ -82,8 +84,6 @@ Pull BSplineCurve<S>::next(CurveSegment<S>& out) noexcept {
     }
 }
 
-template class BSplineCurve<double>;
-template class BSplineCurve<float>;
-template class BSplineCurve<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(BSplineCurve)
 
 } // namespace splinefeed

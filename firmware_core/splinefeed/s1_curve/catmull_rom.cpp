@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/catmull_rom.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -53,8 +55,6 @@ Pull CatmullRom<S>::next(CurveSegment<S>& out) noexcept {
     }
 }
 
-template class CatmullRom<double>;
-template class CatmullRom<float>;
-template class CatmullRom<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(CatmullRom)
 
 } // namespace splinefeed

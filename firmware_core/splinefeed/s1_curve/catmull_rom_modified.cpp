@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/catmull_rom_modified.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -55,8 +57,6 @@ Pull CatmullRomModified<S>::next(CurveSegment<S>& out) noexcept {
     }
 }
 
-template class CatmullRomModified<double>;
-template class CatmullRomModified<float>;
-template class CatmullRomModified<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(CatmullRomModified)
 
 } // namespace splinefeed

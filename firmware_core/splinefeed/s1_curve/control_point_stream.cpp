@@ -26,6 +26,8 @@
 // on committed offsets, so the error does not accumulate.
 #include "splinefeed/s1_curve/control_point_stream.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S, class Joints>
@@ -259,14 +261,11 @@ SpansAround<S> BetaJoints<S>::around(S outer_before, S before, S after, S outer_
     return out;
 }
 
-template struct BetaJoints<double>;
-template struct BetaJoints<float>;
-template struct BetaJoints<Fixed>;
-template class ControlPointStream<double, PlainJoints<double>>;
-template class ControlPointStream<float, PlainJoints<float>>;
-template class ControlPointStream<Fixed, PlainJoints<Fixed>>;
-template class ControlPointStream<double, BetaJoints<double>>;
-template class ControlPointStream<float, BetaJoints<float>>;
-template class ControlPointStream<Fixed, BetaJoints<Fixed>>;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template struct BetaJoints<S>;                                                                                     \
+    template class ControlPointStream<S, PlainJoints<S>>;                                                              \
+    template class ControlPointStream<S, BetaJoints<S>>;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -2,6 +2,7 @@
 #include "splinefeed/s1_curve/curve_segment.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
 
@@ -24,8 +25,8 @@ void CurveSegment<S>::assign(const PerAxis<PerDegree<S>>& offsets) noexcept {
     }
 }
 
-template struct CurveSegment<double>;
-template struct CurveSegment<float>;
-template struct CurveSegment<Fixed>;
+#define SPLINEFEED_INSTANTIATE(S) template struct CurveSegment<S>;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

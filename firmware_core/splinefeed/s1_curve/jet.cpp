@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/jet.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -52,8 +54,8 @@ void evaluate(const CurveSegment<S>& segment, S u, Jet<S>& out) noexcept {
     }
 }
 
-template void evaluate<double>(const CurveSegment<double>&, double, Jet<double>&) noexcept;
-template void evaluate<float>(const CurveSegment<float>&, float, Jet<float>&) noexcept;
-template void evaluate<Fixed>(const CurveSegment<Fixed>&, Fixed, Jet<Fixed>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(S) template void evaluate<S>(const CurveSegment<S>&, S, Jet<S>&) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

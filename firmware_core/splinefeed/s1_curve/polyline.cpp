@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/polyline.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -26,8 +28,6 @@ Pull Polyline<S>::next(CurveSegment<S>& out) noexcept {
     }
 }
 
-template class Polyline<double>;
-template class Polyline<float>;
-template class Polyline<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(Polyline)
 
 } // namespace splinefeed

@@ -8,6 +8,7 @@
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -240,9 +241,7 @@ Pull SmoothedCurve<S>::next(CurveSegment<S>& out) noexcept {
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
-template class SmoothedCurve<double>;
-template class SmoothedCurve<float>;
-template class SmoothedCurve<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(SmoothedCurve)
 #endif
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -134,8 +135,6 @@ void WaypointCurve<S>::describe_segment(std::uint64_t i, int degree, CurveSegmen
     out.waypoint = to.waypoint;
 }
 
-template class WaypointCurve<double>;
-template class WaypointCurve<float>;
-template class WaypointCurve<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(WaypointCurve)
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
@@ -393,8 +394,6 @@ void ArcLength<S>::leave() noexcept {
     }
 }
 
-template class ArcLength<double>;
-template class ArcLength<float>;
-template class ArcLength<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ArcLength)
 
 } // namespace splinefeed

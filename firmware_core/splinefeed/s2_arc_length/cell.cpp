@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/cell.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -43,8 +44,8 @@ void Cell<S>::direction_at(S x, PerAxis<S>& out) const noexcept {
     }
 }
 
-template struct Cell<double>;
-template struct Cell<float>;
-template struct Cell<Fixed>;
+#define SPLINEFEED_INSTANTIATE(S) template struct Cell<S>;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

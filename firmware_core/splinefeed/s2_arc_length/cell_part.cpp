@@ -7,6 +7,7 @@
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
 #include "splinefeed/number/division_by.hpp"
+#include "splinefeed/number/instantiate.hpp"
 
 #include <span>
 
@@ -81,8 +82,8 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
     return out;
 }
 
-template Cell<double> part_of(const Cell<double>&, const CellInterval<double>&) noexcept;
-template Cell<float> part_of(const Cell<float>&, const CellInterval<float>&) noexcept;
-template Cell<Fixed> part_of(const Cell<Fixed>&, const CellInterval<Fixed>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(S) template Cell<S> part_of(const Cell<S>&, const CellInterval<S>&) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

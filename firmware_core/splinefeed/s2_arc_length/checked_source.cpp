@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/checked_source.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -99,17 +100,12 @@ Pull CheckedSource<S>::next(CurveSegment<S>& out) noexcept {
     return status_.ok() ? Pull::item : Pull::finished;
 }
 
-template class CheckedSource<double>;
-template PositionRange hull(const PerDegree<double>&, int, Position, int) noexcept;
-template bool direction_jumps(const CurveSegment<double>&, const CurveSegment<double>&, double) noexcept;
-template bool turns_within(const CurveSegment<double>&, double) noexcept;
-template class CheckedSource<float>;
-template PositionRange hull(const PerDegree<float>&, int, Position, int) noexcept;
-template bool direction_jumps(const CurveSegment<float>&, const CurveSegment<float>&, float) noexcept;
-template bool turns_within(const CurveSegment<float>&, float) noexcept;
-template class CheckedSource<Fixed>;
-template PositionRange hull(const PerDegree<Fixed>&, int, Position, int) noexcept;
-template bool direction_jumps(const CurveSegment<Fixed>&, const CurveSegment<Fixed>&, Fixed) noexcept;
-template bool turns_within(const CurveSegment<Fixed>&, Fixed) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template class CheckedSource<S>;                                                                                   \
+    template PositionRange hull(const PerDegree<S>&, int, Position, int) noexcept;                                     \
+    template bool direction_jumps(const CurveSegment<S>&, const CurveSegment<S>&, S) noexcept;                         \
+    template bool turns_within(const CurveSegment<S>&, S) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

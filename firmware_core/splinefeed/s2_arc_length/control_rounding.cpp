@@ -15,6 +15,8 @@
 // In the other scalars a control point has an error of half a unit, whatever its piece.
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -26,9 +28,10 @@ template <Scalar S>
 constexpr S bend_rounding = literal<S>(1e-8);
 
 // h_k 2^-level
-float reach(const CurveSegment<float>& segment, unsigned axis, int level) noexcept {
-    const PerDegree<float>& control = segment.control[axis];
-    float sum = absolute(control[0]);
+template <Floating S>
+S reach(const CurveSegment<S>& segment, unsigned axis, int level) noexcept {
+    const PerDegree<S>& control = segment.control[axis];
+    S sum = absolute(control[0]);
     for (unsigned i = 1; i <= static_cast<unsigned>(segment.degree); ++i) {
         sum += absolute(control[i] - control[i - 1]);
     }
@@ -80,8 +83,8 @@ S ControlRounding<S>::steady_speed(const PerAxis<S>& jump_mm_s, int axes) const 
     return speed;
 }
 
-template struct ControlRounding<double>;
-template struct ControlRounding<float>;
-template struct ControlRounding<Fixed>;
+#define SPLINEFEED_INSTANTIATE(S) template struct ControlRounding<S>;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -13,6 +13,7 @@
 // was not used for the construction; it shows how good the inverse is.
 #include "splinefeed/s2_arc_length/piece.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -236,11 +237,10 @@ AxisShape<S> PieceMeasure<S>::shape(unsigned axis) const noexcept {
     return {{t0, t1}, {c0, c1, c2}, times(8, middle_rest) + times(10, end_rest)};
 }
 
-template void Piece<double>::halve(int, int, PerAxis<PerDegree<double>>&, PerAxis<PerDegree<double>>&) const noexcept;
-template void Piece<float>::halve(int, int, PerAxis<PerDegree<float>>&, PerAxis<PerDegree<float>>&) const noexcept;
-template void Piece<Fixed>::halve(int, int, PerAxis<PerDegree<Fixed>>&, PerAxis<PerDegree<Fixed>>&) const noexcept;
-template struct PieceMeasure<double>;
-template struct PieceMeasure<float>;
-template struct PieceMeasure<Fixed>;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template void Piece<S>::halve(int, int, PerAxis<PerDegree<S>>&, PerAxis<PerDegree<S>>&) const noexcept;            \
+    template struct PieceMeasure<S>;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -13,6 +13,8 @@
 // the speed in the middle, limited so that no number is larger than 8: V^2 >= entry_sq / 4, middle_sq / 2, exit_sq / 4.
 #include "splinefeed/s4_segment_stream/profile_motion.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 #include <array>
 
 namespace splinefeed {
@@ -155,8 +157,6 @@ S ProfileMotion<S>::at(S y) const noexcept {
     return y;
 }
 
-template class ProfileMotion<double>;
-template class ProfileMotion<float>;
-template class ProfileMotion<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ProfileMotion)
 
 } // namespace splinefeed

@@ -23,6 +23,8 @@
 // each with the limit A T^2, and one first difference, which is smaller than that beside it.
 #include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -255,8 +257,6 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept
     return Pull::item;
 }
 
-template class ProfileSampler<double>;
-template class ProfileSampler<float>;
-template class ProfileSampler<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(ProfileSampler)
 
 } // namespace splinefeed

@@ -17,6 +17,8 @@
 // one instant. The dwell is 2 T; ProfileSampler says when it begins and ends.
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -89,8 +91,6 @@ void SegmentStream<S>::write(FeedSegment& out) noexcept {
     }
 }
 
-template class SegmentStream<double>;
-template class SegmentStream<float>;
-template class SegmentStream<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(SegmentStream)
 
 } // namespace splinefeed

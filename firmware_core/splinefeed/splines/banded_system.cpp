@@ -8,6 +8,8 @@
 // 2^-47 absolutely) and c is about 3: an error of x below 3 (width + 1) u condition, in rows that sum to 1.
 #include "splinefeed/splines/banded_system.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -194,8 +196,6 @@ Status BandedSystem<S>::solve(std::span<Point<S>> values, int axes, std::size_t 
     return {};
 }
 
-template class BandedSystem<double>;
-template class BandedSystem<float>;
-template class BandedSystem<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(BandedSystem)
 
 } // namespace splinefeed

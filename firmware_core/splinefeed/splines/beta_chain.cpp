@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/beta_chain.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -73,11 +75,10 @@ Status beta_chain(const BetaChain<S>& chain, std::span<BezierPiece<S>> pieces, s
     return {};
 }
 
-template Status beta_chain(const BetaChain<double>&, std::span<BezierPiece<double>>, std::span<BetaJoint<double>>,
-                           std::size_t*) noexcept;
-template Status beta_chain(const BetaChain<float>&, std::span<BezierPiece<float>>, std::span<BetaJoint<float>>,
-                           std::size_t*) noexcept;
-template Status beta_chain(const BetaChain<Fixed>&, std::span<BezierPiece<Fixed>>, std::span<BetaJoint<Fixed>>,
-                           std::size_t*) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template Status beta_chain(const BetaChain<S>&, std::span<BezierPiece<S>>, std::span<BetaJoint<S>>,                \
+                               std::size_t*) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

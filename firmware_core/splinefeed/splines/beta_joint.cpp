@@ -10,6 +10,7 @@
 // gamma = (d-1)(1 + beta1) / (beta2 + beta1 (d-1)(1 + beta1)), T = B + beta1^2 gamma (B - A).
 #include "splinefeed/splines/beta_joint.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/product_fits.hpp"
 
@@ -223,9 +224,7 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
     template Result<S> beta_growth(const Beta<S>&, int, int) noexcept;                                                 \
     template Result<BetaJoint<S>> beta_joint(const BezierPiece<S>&, const Beta<S>&, int) noexcept;                     \
     template Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>&, const BezierPiece<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -9,6 +9,7 @@
 // Seen from the joint, the neighbouring Bezier point is one part of its side away.
 #include "splinefeed/splines/boehm.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -169,14 +170,13 @@ Status boehm(std::span<const PerAxis<std::int64_t>> vertices, int degree, bool c
     template void boehm_cubic(const PerAxis<N>&, const PerAxis<N>&, const PerAxis<N>&, const SideParts&,               \
                               BoehmPoints<N>&) noexcept;                                                               \
     template void boehm_quadratic(const PerAxis<N>&, const PerAxis<N>&, bool, bool, BoehmPoints<N>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 SPLINEFEED_INSTANTIATE(std::int64_t)
 #undef SPLINEFEED_INSTANTIATE
 
-template Status boehm(std::span<const Point<double>>, int, bool, std::span<BezierPiece<double>>) noexcept;
-template Status boehm(std::span<const Point<float>>, int, bool, std::span<BezierPiece<float>>) noexcept;
-template Status boehm(std::span<const Point<Fixed>>, int, bool, std::span<BezierPiece<Fixed>>) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template Status boehm(std::span<const Point<S>>, int, bool, std::span<BezierPiece<S>>) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -10,6 +10,8 @@
 // within the support.
 #include "splinefeed/splines/bspline_basis.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -149,9 +151,7 @@ CurveJet<S> bspline_curve(std::span<const S> knots, int degree, std::span<const 
     template Point<S> weighted_sum(const PerDegree<S>&, int, bool, std::span<const Point<S>>, std::size_t, int,        \
                                    std::size_t) noexcept;                                                              \
     template CurveJet<S> bspline_curve(std::span<const S>, int, std::span<const Point<S>>, int, S) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

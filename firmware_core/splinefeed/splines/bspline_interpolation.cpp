@@ -5,6 +5,7 @@
 // So every row sums to 1 and the system stays totally positive.
 #include "splinefeed/splines/bspline_interpolation.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/bspline_basis.hpp"
 
 namespace splinefeed {
@@ -244,8 +245,6 @@ Status BsplineInterpolation<S>::interpolate(std::span<const Point<S>> points, co
     return system_.solve(controls.first(count), axes);
 }
 
-template class BsplineInterpolation<double>;
-template class BsplineInterpolation<float>;
-template class BsplineInterpolation<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(BsplineInterpolation)
 
 } // namespace splinefeed

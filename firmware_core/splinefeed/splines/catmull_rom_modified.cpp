@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/catmull_rom_modified.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
@@ -136,9 +137,7 @@ Result<std::size_t> modified_catmull_rom(std::span<const Point<S>> points, bool 
                                    Point<S>&, Point<S>&) noexcept;                                                     \
     template Result<std::size_t> modified_catmull_rom<S>(std::span<const Point<S>>, bool, const ModifiedTangents<S>&,  \
                                                          const ModifiedCurve<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

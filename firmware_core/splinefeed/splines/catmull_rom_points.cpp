@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/catmull_rom_points.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -121,9 +122,7 @@ Status catmull_rom_points(std::span<const Point<S>> points, int axes, bool close
                                       Point<S>&, Point<S>&) noexcept;                                                  \
     template Status catmull_rom_points<S>(std::span<const Point<S>>, int, bool, S, std::span<Point<S>>,                \
                                           std::span<BezierPiece<S>>) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

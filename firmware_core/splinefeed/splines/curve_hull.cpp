@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/curve_hull.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -89,9 +91,7 @@ Extent<S> extent_beyond(const PerDegree<S>& points, int degree, const Extent<S>&
     template PerAxis<Extent<S>> bezier_hull(const BezierPiece<S>&) noexcept;                                           \
     template Extent<S> bezier_extent(const PerDegree<S>&, int) noexcept;                                               \
     template Extent<S> extent_beyond(const PerDegree<S>&, int, const Extent<S>&, S) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

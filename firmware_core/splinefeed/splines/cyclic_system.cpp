@@ -2,6 +2,7 @@
 #include "splinefeed/splines/cyclic_system.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
 
@@ -274,9 +275,7 @@ Status solve_cyclic(std::span<CyclicRow<S>> rows, bool ring, std::span<Point<S>>
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
     template bool diagonally_dominant<S>(std::span<const CyclicRow<S>>) noexcept;                                      \
     template Status solve_cyclic<S>(std::span<CyclicRow<S>>, bool, std::span<Point<S>>, CyclicReport<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/ferguson.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -218,9 +219,7 @@ Status ferguson(const FergusonInput<S>& input, const FergusonOutput<S>& out, Fer
     template FergusonClass ferguson_class<S>(const FergusonJoint<S>&, bool) noexcept;                                  \
     template CyclicRow<S> ferguson_row<S>(const FergusonJoint<S>&, S) noexcept;                                        \
     template Status ferguson<S>(const FergusonInput<S>&, const FergusonOutput<S>&, FergusonReport<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

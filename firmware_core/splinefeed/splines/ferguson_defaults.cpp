@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/ferguson.hpp"
 #include "splinefeed/splines/point_list.hpp"
@@ -87,9 +88,7 @@ S stable_mu(S wish, int delta, S lambda, S lambda_before) noexcept {
                                            Point<S>&) noexcept;                                                        \
     template int automatic_sign<S>(std::span<const Point<S>>, std::size_t, bool) noexcept;                             \
     template S stable_mu<S>(S, int, S, S) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -21,6 +21,7 @@
 // with a constant number of scalars; then the elimination is that of an open curve whose tangents are given.
 #include "splinefeed/splines/g2_bezier.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/g2_bezier_rows.hpp"
 
 namespace splinefeed {
@@ -306,9 +307,7 @@ Status g2_bezier_pieces(const G2BezierInput<S>& input, std::span<const S> tangen
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
     template Status g2_bezier_tangents(const G2BezierInput<S>&, std::span<S>, std::span<S>) noexcept;                  \
     template Status g2_bezier_pieces(const G2BezierInput<S>&, std::span<const S>, std::span<BezierPiece<S>>) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

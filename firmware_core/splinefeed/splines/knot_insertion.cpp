@@ -5,6 +5,7 @@
 // a are replaced by a first, from the nearest outwards, and then those above b by b.
 #include "splinefeed/splines/knot_insertion.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/bspline_basis.hpp"
 
 namespace splinefeed {
@@ -153,9 +154,7 @@ Status bezier_pieces(std::span<const S> knots, int degree, std::span<const Point
     template std::size_t bezier_piece_count(std::span<const S>, int) noexcept;                                         \
     template Status bezier_pieces(std::span<const S>, int, std::span<const Point<S>>, int, bool,                       \
                                   std::span<BezierPiece<S>>, std::span<S>) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

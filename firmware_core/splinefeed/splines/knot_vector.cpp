@@ -2,6 +2,7 @@
 #include "splinefeed/splines/knot_vector.hpp"
 
 #include "splinefeed/base/capacity.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -220,9 +221,7 @@ Status check_closed_knots(std::span<const S> knots, int degree) noexcept {
     template Status closed_knots(KnotRule, std::span<const S>, int, S, std::span<S>) noexcept;                         \
     template Status check_knots(std::span<const S>, int) noexcept;                                                     \
     template Status check_closed_knots(std::span<const S>, int) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/point_list.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -34,9 +36,7 @@ Point<S> chord_between(const Point<S>& from, const Point<S>& to) noexcept {
     template std::size_t first_bad_point<S>(std::span<const Point<S>>) noexcept;                                       \
     template std::size_t closed_count<S>(std::span<const Point<S>>) noexcept;                                          \
     template Point<S> chord_between<S>(const Point<S>&, const Point<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/spline_parameters.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/weight.hpp"
 
@@ -123,11 +124,9 @@ Status spline_parameters(std::span<const Point<S>> points, int axes, Parameteriz
     return {};
 }
 
-template Status spline_parameters(std::span<const Point<double>>, int, Parameterization, bool, double,
-                                  std::span<double>) noexcept;
-template Status spline_parameters(std::span<const Point<float>>, int, Parameterization, bool, float,
-                                  std::span<float>) noexcept;
-template Status spline_parameters(std::span<const Point<Fixed>>, int, Parameterization, bool, Fixed,
-                                  std::span<Fixed>) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template Status spline_parameters(std::span<const Point<S>>, int, Parameterization, bool, S, std::span<S>) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -4,6 +4,7 @@
 // over i. All sums are of differences to one point of the row (weighted_sum), so their error is relative to the piece.
 #include "splinefeed/surfaces/bspline_surface.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -201,9 +202,7 @@ Result<SurfaceNormal<S>> normal_at(const BSplineSurface<S>& surface, S u, S v) n
     template Status iso_curve(const BSplineSurface<S>&, SurfaceDirection, S, std::span<Point<S>>) noexcept;            \
     template Result<SurfaceNormal<S>> normal_of(const BSplineSurface<S>&, const SurfaceJet<S>&, bool, bool) noexcept;  \
     template Result<SurfaceNormal<S>> normal_at(const BSplineSurface<S>&, S, S) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

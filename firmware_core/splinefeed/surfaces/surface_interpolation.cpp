@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/surfaces/surface_interpolation.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -146,9 +147,7 @@ Result<BSplineSurface<S>> interpolate_surface(const PointGrid<S>& grid, const Su
     template Status interpolate_net(const PointGrid<S>&, const SurfaceKind&, const SurfaceStorage<S>&) noexcept;       \
     template Result<BSplineSurface<S>> interpolate_surface(const PointGrid<S>&, const SurfaceKind&, S, S,              \
                                                            const SurfaceStorage<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

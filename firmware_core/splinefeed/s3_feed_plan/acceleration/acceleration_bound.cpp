@@ -33,6 +33,8 @@
 // step is needed.
 #include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -304,8 +306,6 @@ void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const no
     }
 }
 
-template class AccelerationBound<double>;
-template class AccelerationBound<float>;
-template class AccelerationBound<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(AccelerationBound)
 
 } // namespace splinefeed

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/acceleration/backward_pass.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -70,8 +72,6 @@ void BackwardPass<S>::visit(CellWindow<S>& window, const MotionLimits<S>& limits
     override_sq_ = smaller(override_reach, override_cap);
 }
 
-template class BackwardPass<double>;
-template class BackwardPass<float>;
-template class BackwardPass<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(BackwardPass)
 
 } // namespace splinefeed

@@ -28,6 +28,8 @@
 // for the pass. A cell that no pass has visited yet has K = 0, so the old plan ends at standstill before it.
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -387,8 +389,6 @@ void FeedPlan<S>::forget() noexcept {
     steered_ = planned_ = open_ = chosen_ = rest_to_rest_ = peaks_ = false;
 }
 
-template class FeedPlan<double>;
-template class FeedPlan<float>;
-template class FeedPlan<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(FeedPlan)
 
 } // namespace splinefeed

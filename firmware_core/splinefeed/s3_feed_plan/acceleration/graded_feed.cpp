@@ -7,6 +7,7 @@
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
 
@@ -84,8 +85,6 @@ void GradedFeed<S>::leave(const CellInterval<S>& part) noexcept {
     }
 }
 
-template class GradedFeed<double>;
-template class GradedFeed<float>;
-template class GradedFeed<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(GradedFeed)
 
 } // namespace splinefeed

@@ -9,6 +9,8 @@
 // gains more on its way there, and none may have more on its way to b1.
 #include "splinefeed/s3_feed_plan/acceleration/peaked_segment.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -66,9 +68,7 @@ ProfileSegment<S> peaked_segment(const Cell<S>& cell, const MotionLimits<S>& lim
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
     template bool has_parts(const Cell<S>&) noexcept;                                                                  \
     template ProfileSegment<S> peaked_segment(const Cell<S>&, const MotionLimits<S>&, const PeakTarget<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/acceleration/speed_caps.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 #include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
@@ -74,8 +75,6 @@ S SpeedCaps<S>::programmed_sq(const Cell<S>& cell) const noexcept {
     return speed * speed;
 }
 
-template class SpeedCaps<double>;
-template class SpeedCaps<float>;
-template class SpeedCaps<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(SpeedCaps)
 
 } // namespace splinefeed

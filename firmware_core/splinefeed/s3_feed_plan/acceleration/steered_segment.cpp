@@ -11,6 +11,8 @@
 // twice the wanted change. If it could go further, half of the part is used instead, and so on.
 #include "splinefeed/s3_feed_plan/acceleration/steered_segment.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -112,9 +114,7 @@ ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& li
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
     template ProfileSegment<S> steered_segment(const Cell<S>&, const MotionLimits<S>&,                                 \
                                                const SteeringTarget<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -7,6 +7,8 @@
 // on either side. A cell at a stop after which the axis returns in the direction from which it came has no heading.
 #include "splinefeed/s3_feed_plan/acceleration/turning.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -57,8 +59,6 @@ S Turning<S>::travel_in(const Cell<S>& cell, unsigned axis) noexcept {
     return cell.length_mm * absolute(least_tangent(cell, axis));
 }
 
-template class Turning<double>;
-template class Turning<float>;
-template class Turning<Fixed>;
+SPLINEFEED_INSTANTIATE_CLASS(Turning)
 
 } // namespace splinefeed

@@ -12,6 +12,7 @@
 // A cell that fails is halved, by de Casteljau's construction: next to standstill the tangent's chord is too careful.
 #include "splinefeed/s3_feed_plan/jerk/cell_use.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 
 namespace splinefeed {
@@ -185,7 +186,9 @@ CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLi
     return most;
 }
 
-template CellUse<float> cell_use(const LegNode<float>&, const LegNode<float>&, const AxisLimits<float>&) noexcept;
-template CellUse<double> cell_use(const LegNode<double>&, const LegNode<double>&, const AxisLimits<double>&) noexcept;
+#define SPLINEFEED_INSTANTIATE(R)                                                                                      \
+    template CellUse<R> cell_use(const LegNode<R>&, const LegNode<R>&, const AxisLimits<R>&) noexcept;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -12,6 +12,7 @@
 // acceleration is j t (q' + 3/2 q'' s), at most that of the moving end times the largest value of another cubic.
 #include "splinefeed/s3_feed_plan/jerk/jerk_cell.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 
 namespace splinefeed {
@@ -121,7 +122,8 @@ bool JerkCell<R>::straight(R most_sq) const noexcept {
     return true;
 }
 
-template struct JerkCell<float>;
-template struct JerkCell<double>;
+#define SPLINEFEED_INSTANTIATE(R) template struct JerkCell<R>;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -11,6 +11,7 @@
 // higher speed the caps are what is wanted.
 #include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
 #include <iterator>
@@ -378,9 +379,8 @@ Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
     return Search::none;
 }
 
-template class JerkChange<double, double>;
-template class JerkChange<double, float>;
-template class JerkChange<Fixed, double>;
-template class JerkChange<Fixed, float>;
+#define SPLINEFEED_INSTANTIATE(S, R) template class JerkChange<S, R>;
+SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

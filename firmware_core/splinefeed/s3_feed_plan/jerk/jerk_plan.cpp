@@ -5,6 +5,7 @@
 #include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
 
@@ -365,9 +366,8 @@ void JerkPlan<S, R>::clear() noexcept {
     steering_.start();
 }
 
-template class JerkPlan<double, double>;
-template class JerkPlan<double, float>;
-template class JerkPlan<Fixed, double>;
-template class JerkPlan<Fixed, float>;
+#define SPLINEFEED_INSTANTIATE(S, R) template class JerkPlan<S, R>;
+SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -2,6 +2,7 @@
 #include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
 namespace splinefeed {
@@ -159,13 +160,11 @@ void JerkWindow<S, R>::clear() noexcept {
     }
 }
 
-template AxisLimits<double> axis_limits_of(const MotionLimits<double>&) noexcept;
-template AxisLimits<double> axis_limits_of(const MotionLimits<Fixed>&) noexcept;
-template JerkCell<double> jerk_cell_of(const Cell<double>&, const AxisLimits<double>&, double) noexcept;
-template JerkCell<double> jerk_cell_of(const Cell<Fixed>&, const AxisLimits<double>&, double) noexcept;
-template class JerkWindow<double, double>;
-template class JerkWindow<double, float>;
-template class JerkWindow<Fixed, double>;
-template class JerkWindow<Fixed, float>;
+#define SPLINEFEED_INSTANTIATE(S, R)                                                                                   \
+    template AxisLimits<R> axis_limits_of(const MotionLimits<S>&) noexcept;                                            \
+    template JerkCell<R> jerk_cell_of(const Cell<S>&, const AxisLimits<R>&, R) noexcept;                               \
+    template class JerkWindow<S, R>;
+SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

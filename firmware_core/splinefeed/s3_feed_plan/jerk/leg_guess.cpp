@@ -16,6 +16,7 @@
 // The envelope E is a value at the middle of a cell; the Bezier point there is E - L^2 E'' / 8.
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
@@ -298,9 +299,10 @@ void lead_over(std::span<LegNode<R>> nodes, std::size_t known, R from) noexcept 
     }
 }
 
-template void guess_leg(std::span<LegNode<float>>, const AxisLimits<float>&, bool) noexcept;
-template void guess_leg(std::span<LegNode<double>>, const AxisLimits<double>&, bool) noexcept;
-template void lead_over(std::span<LegNode<float>>, std::size_t, float) noexcept;
-template void lead_over(std::span<LegNode<double>>, std::size_t, double) noexcept;
+#define SPLINEFEED_INSTANTIATE(R)                                                                                      \
+    template void guess_leg(std::span<LegNode<R>>, const AxisLimits<R>&, bool) noexcept;                               \
+    template void lead_over(std::span<LegNode<R>>, std::size_t, R) noexcept;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

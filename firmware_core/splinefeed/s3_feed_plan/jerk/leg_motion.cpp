@@ -8,6 +8,7 @@
 // A cell next to standstill has constant jerk along the path: b' = 4 b / (3 L) at its moving end (jerk_cell.cpp).
 #include "splinefeed/s3_feed_plan/jerk/leg_motion.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 
 namespace splinefeed {
@@ -105,7 +106,8 @@ void LegMotion<R>::settle(const SpeedState& start, bool by_gains) noexcept {
     node_[cells_ - 1].slope = static_cast<R>(state.slope);
 }
 
-template class LegMotion<float>;
-template class LegMotion<double>;
+#define SPLINEFEED_INSTANTIATE(R) template class LegMotion<R>;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -8,6 +8,7 @@
 // over to them, late at first, and later yet where that fails.
 #include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s3_feed_plan/jerk/cell_use.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
@@ -277,7 +278,8 @@ bool LegPlan<R>::slow() noexcept {
     return false;
 }
 
-template class LegPlan<float>;
-template class LegPlan<double>;
+#define SPLINEFEED_INSTANTIATE(R) template class LegPlan<R>;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

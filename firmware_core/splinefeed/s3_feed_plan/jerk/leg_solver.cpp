@@ -26,6 +26,7 @@
 // steps.
 #include "splinefeed/s3_feed_plan/jerk/leg_solver.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
 
 namespace splinefeed {
@@ -331,7 +332,8 @@ Search LegSolver<R>::finish() noexcept {
     return Search::found;
 }
 
-template class LegSolver<float>;
-template class LegSolver<double>;
+#define SPLINEFEED_INSTANTIATE(R) template class LegSolver<R>;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

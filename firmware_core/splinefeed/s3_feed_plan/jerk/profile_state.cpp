@@ -3,6 +3,8 @@
 // For a parabola, b and db/ds by de Casteljau's construction; for a cubic s(t), b = (ds/dt)^2 and db/ds = 2 d2s/dt2.
 #include "splinefeed/s3_feed_plan/jerk/profile_state.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -26,8 +28,9 @@ SpeedState state_on(const ProfileSegment<S>& profile_segment, double cell_length
     return {v * v, 2.0 * speed * per_s * (2.0 * quadratic + 6.0 * cubic * y)};
 }
 
-template SpeedState state_on(const ProfileSegment<double>&, double, double, double) noexcept;
-template SpeedState state_on(const ProfileSegment<float>&, double, double, double) noexcept;
-template SpeedState state_on(const ProfileSegment<Fixed>&, double, double, double) noexcept;
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template SpeedState state_on(const ProfileSegment<S>&, double, double, double) noexcept;
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

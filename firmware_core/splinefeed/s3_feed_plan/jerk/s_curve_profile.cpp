@@ -12,6 +12,7 @@
 // by bisection.
 #include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 
 namespace splinefeed {
@@ -41,8 +42,9 @@ R power_two_thirds(R x) noexcept {
     return y * scale;
 }
 
-template float power_two_thirds(float) noexcept;
-template double power_two_thirds(double) noexcept;
+#define SPLINEFEED_INSTANTIATE(R) template R power_two_thirds(R) noexcept;
+SPLINEFEED_EACH_JERK_REAL(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 MoveState MoveState::after(double t, double jerk_mm_s3) const noexcept {
     return {position_mm + t * (speed_mm_s + t * (0.5 * acceleration_mm_s2 + t * jerk_mm_s3 * (1.0 / 6.0))),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -133,9 +135,8 @@ bool StraightLeg<S, R>::to_end(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-template class StraightLeg<double, double>;
-template class StraightLeg<double, float>;
-template class StraightLeg<Fixed, double>;
-template class StraightLeg<Fixed, float>;
+#define SPLINEFEED_INSTANTIATE(S, R) template class StraightLeg<S, R>;
+SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -6,6 +6,7 @@
 #include "splinefeed/s3_feed_plan/jerk/window_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 namespace splinefeed {
@@ -157,9 +158,8 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
     return true;
 }
 
-template class WindowPlan<double, double>;
-template class WindowPlan<double, float>;
-template class WindowPlan<Fixed, double>;
-template class WindowPlan<Fixed, float>;
+#define SPLINEFEED_INSTANTIATE(S, R) template class WindowPlan<S, R>;
+SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -3,6 +3,8 @@
 // With |dq/ds| <= t over the length L, an axis that goes from q0 to q1 stays within (q0 + q1) / 2 +- t L / 2.
 #include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -25,9 +27,7 @@ S axis_velocity(const Cell<S>& cell, const MotionLimits<S>& limits, unsigned axi
 }
 
 #define SPLINEFEED_INSTANTIATE(S) template S axis_velocity(const Cell<S>&, const MotionLimits<S>&, unsigned) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -9,6 +9,8 @@
 // limit: so n is below 1000.
 #include "splinefeed/s3_feed_plan/limits/crawl.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -26,9 +28,7 @@ S crawling_ticks(S way_mm, const MotionLimits<S>& limits) noexcept {
 }
 
 #define SPLINEFEED_INSTANTIATE(S) template S crawling_ticks(S, const MotionLimits<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -4,6 +4,7 @@
 // length of the linear axes' part is nowhere larger than at the longest of the four points.
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
+#include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
@@ -53,9 +54,7 @@ bool feed_is_linear(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
     template S feed_share(const Cell<S>&, const MotionLimits<S>&) noexcept;                                            \
     template bool feed_is_linear(const Cell<S>&, const MotionLimits<S>&) noexcept;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
+SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed
