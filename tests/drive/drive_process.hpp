@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <stdexcept>
+#include <sys/prctl.h>
 
 namespace splinefeed::test {
 
@@ -21,6 +22,7 @@ public:
         }
         process_ = fork();
         if (process_ == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGTERM); // a test that crashes leaves no drive behind
             dup2(ends[1], STDOUT_FILENO);
             close(ends[0]);
             close(ends[1]);
