@@ -22,11 +22,7 @@ struct RecordedChips {
     explicit RecordedChips(const splinefeed::host::ProgramLines& lines) {
         for (const splinefeed::hal::gpio::ChipLines& of : lines.chips) {
             auto writer = std::make_shared<RecordingWriter>();
-            std::uint64_t levels = 0;
-            for (std::size_t i = 0; i < of.outputs.size(); ++i) {
-                levels |= std::uint64_t{of.outputs[i].safe_level ? 1U : 0U} << i;
-            }
-            writer->begin_with(levels);
+            writer->begin_with(splinefeed::hal::gpio::safe_levels_of(of.outputs));
             chip.push_back(writer.get());
             all.writer.push_back(writer);
             auto source = std::make_shared<SetInputs>();

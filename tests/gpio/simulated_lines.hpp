@@ -25,12 +25,8 @@ public:
     };
 
     SimulatedLines(const splinefeed::hal::gpio::LineMap& map, splinefeed::hal::Clock& clock)
-        : map_(&map), clock_(&clock) {
-        for (std::size_t i = 0; i < map.chips[0].outputs.size(); ++i) {
-            levels_ |= std::uint64_t{map.chips[0].outputs[i].safe_level ? 1U : 0U} << i;
-        }
-        safe_ = levels_;
-    }
+        : map_(&map), clock_(&clock), levels_(splinefeed::hal::gpio::safe_levels_of(map.chips[0].outputs)),
+          safe_(levels_) {}
 
     /// An input of the map changes, with an edge or without one.
     void drive(std::size_t input, bool active, bool with_edge = true) {
@@ -136,8 +132,8 @@ private:
     splinefeed::hal::Clock* clock_;
     std::vector<Row> rows_;
     std::deque<splinefeed::hal::gpio::InputEvent> events_;
-    std::uint64_t levels_ = 0;
-    std::uint64_t safe_ = 0;
+    std::uint64_t levels_;
+    std::uint64_t safe_;
     std::uint64_t inputs_ = 0;
     std::uint64_t stall_ns_ = 0;
     bool fails_ = false;

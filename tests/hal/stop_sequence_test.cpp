@@ -46,23 +46,6 @@ TEST_CASE("Stop: an axis at standstill before the request gets it too, and confi
     CHECK(one.at(141, stands(139, StopRequest::hold, 110)).state == StopState::stopping);
     CHECK(one.at(142, stands(140, StopRequest::hold, 110)).held());
     CHECK(one.stop.settled());
-    CHECK(one.stop.all_confirmed());
-}
-
-TEST_CASE("Stop: an axis with a start pending is never confirmed, however it stands") {
-    One one;
-    one.stop.request(StopRequest::hold, 100);
-    StopFacts facts = stands(200, StopRequest::hold, 110);
-    facts.start_pending = true;
-    CHECK(one.at(200, facts).state == StopState::stopping);
-    facts.status_us = 400;
-    CHECK(one.at(400, facts).state == StopState::stopping);
-    facts.start_pending = false; // called off: it counts from here
-    CHECK(one.at(401, facts).state == StopState::stopping);
-    facts.status_us = 410;
-    CHECK(one.at(410, facts).state == StopState::stopping);
-    facts.status_us = 421;
-    CHECK(one.at(421, facts).state == StopState::confirmed);
 }
 
 TEST_CASE("Stop: two statuses far apart do not say that the axis stood between them") {
@@ -85,12 +68,10 @@ TEST_CASE("Stop: a hold that is not confirmed in time becomes a quick stop, then
     CHECK_FALSE(one.stop.settled());
     CHECK(one.at(1703, moves(1700, StopRequest::quick_stop, 1010)).state == StopState::unconfirmed);
     CHECK(one.stop.settled());
-    CHECK_FALSE(one.stop.all_confirmed());
     CHECK(one.stop.to_send(0) == StopRequest::disable); // it is sent again until the axis executes it
     CHECK(one.at(1800, stands(1790, StopRequest::disable, 1780)).state == StopState::unconfirmed);
     CHECK(one.at(1805, stands(1800, StopRequest::disable, 1780)).state == StopState::unconfirmed);
     CHECK(one.at(1810, stands(1810, StopRequest::disable, 1780)).state == StopState::confirmed);
-    CHECK(one.stop.strongest_request() == StopRequest::hold);
 }
 
 TEST_CASE("Stop: the strongest request that an axis is asked for unasked can be limited") {
@@ -204,11 +185,7 @@ TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and ther
             const bool pending = executed == StopRequest::none && start_us > now;
             const bool still = (executed != StopRequest::none && now >= executed_us + stands_us) || pending;
             if (now >= deaf_us) {
-                facts = {.status_us = now,
-                         .standstill = still,
-                         .start_pending = pending,
-                         .executed = executed,
-                         .executed_us = executed_us};
+                facts = {.status_us = now, .standstill = still, .executed = executed, .executed_us = executed_us};
             }
             const StopReport report = one.at(now, facts);
             if (report.state == StopState::confirmed) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 
 namespace splinefeed::hal {
 
@@ -28,6 +30,40 @@ public:
     /// table[phase][event]: the next phase; the same phase: the event changes nothing.
     using Table = std::array<std::array<Phase, events>, phases>;
     using Bounds = std::array<PhaseBound, phases>;
+    struct Change {
+        Phase from;
+        Event event;
+        Phase to;
+    };
+    struct Bound {
+        Phase phase;
+        PhaseBound bound;
+    };
+
+    /// The cell of a table.
+    [[nodiscard]] static constexpr Phase& cell(Table& table, Phase phase, Event event) noexcept {
+        return table[static_cast<std::size_t>(phase)][static_cast<std::size_t>(event)];
+    }
+    /// Where nothing is said, an event leaves the phase as it is.
+    [[nodiscard]] static constexpr Table table_of(std::span<const Change> changes) noexcept {
+        Table table{};
+        for (std::size_t i = 0; i < phases; ++i) {
+            table[i].fill(static_cast<Phase>(i));
+        }
+        for (const Change& change : changes) {
+            cell(table, change.from, change.event) = change.to;
+        }
+        return table;
+    }
+    /// Where nothing is said, a phase is final.
+    [[nodiscard]] static Bounds bounds_of(std::initializer_list<Bound> bounded) noexcept {
+        Bounds bounds;
+        bounds.fill({PhaseBound::final_us, ""});
+        for (const Bound& each : bounded) {
+            bounds[static_cast<std::size_t>(each.phase)] = each.bound;
+        }
+        return bounds;
+    }
 
     /// @param table  must outlive the object
     PhaseMachine(const Table& table, Phase first) noexcept : table_(&table), phase_(first) {}

@@ -47,8 +47,7 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
     axis.report.status_us = facts.status_us;
     axis.report.on_path = facts.on_path;
     axis.executed = facts.executed >= axis.report.request;
-    const bool stands =
-        axis.executed && facts.standstill && !facts.start_pending && facts.status_us >= facts.executed_us;
+    const bool stands = axis.executed && facts.standstill && facts.status_us >= facts.executed_us;
     axis.standstill_since_us = !stands ? 0 : axis.standstill_since_us == 0 ? facts.status_us : axis.standstill_since_us;
     axis.statuses = !stands ? 0 : axis.statuses + (facts.status_us != axis.status_us || axis.statuses == 0 ? 1U : 0U);
     axis.status_us = facts.status_us;
@@ -58,16 +57,16 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
 }
 
 // An axis that was confirmed and moves again has used up its time: it escalates at once.
-void StopSequence::escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept {
+bool StopSequence::escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept {
     const std::uint64_t most_us = bound_us(axis.report.request);
     // Who has not been heard for the whole bound is not known to brake any more.
     const bool brakes = axis.executed && facts.braking && now_us <= facts.status_us + most_us;
     if (now_us <= axis.since_us + (brakes ? std::max(most_us, times_.braking_us) : most_us)) {
-        return;
+        return false;
     }
     if (axis.report.request >= times_.last) {
         axis.report.state = StopState::unconfirmed;
-        return;
+        return false;
     }
     axis.report.request = static_cast<StopRequest>(static_cast<int>(axis.report.request) + 1);
     axis.since_us = now_us;
@@ -75,15 +74,16 @@ void StopSequence::escalate(Axis& axis, const StopFacts& facts, std::uint64_t no
     axis.statuses = 0;
     axis.executed = false;
     axis.report.state = StopState::moving;
+    return true;
 }
 
-void StopSequence::update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept {
+bool StopSequence::update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept {
+    bool grew = false;
     for (std::size_t i = 0; i < axes_.size() && requested(); ++i) {
         assess(axes_[i], facts[i]);
-        if (axes_[i].report.state != StopState::confirmed) {
-            escalate(axes_[i], facts[i], now_us);
-        }
+        grew = (axes_[i].report.state != StopState::confirmed && escalate(axes_[i], facts[i], now_us)) || grew;
     }
+    return grew;
 }
 
 StopRequest StopSequence::to_send(std::size_t axis) const noexcept {
@@ -100,9 +100,12 @@ bool StopSequence::settled() const noexcept {
            });
 }
 
-bool StopSequence::all_confirmed() const noexcept {
-    return requested() && std::all_of(axes_.begin(), axes_.end(),
-                                      [](const Axis& axis) { return axis.report.state == StopState::confirmed; });
+std::size_t StopSequence::unconfirmed() const noexcept {
+    std::size_t i = 0;
+    while (i + 1 < axes_.size() && axes_[i].report.state == StopState::confirmed) {
+        ++i;
+    }
+    return i;
 }
 
 } // namespace splinefeed::hal

@@ -4,7 +4,7 @@
 //                 request(), of all axes or one; it only becomes stronger:  hold < quick_stop < disable
 //
 //     moving --executed by the axis--> stopping --it reports standstill, for the settling time,--> confirmed
-//       |                                  |       and no start is pending                              |
+//       |                                  |                                                            |
 //       |  not confirmed within the bound of its request                        it reports motion         |
 //       |  (the longer one, while it brakes)                                                              |
 //       +---------------+------------------+ <-----------------------------------------------------------+
@@ -30,7 +30,7 @@ enum class StopRequest : std::uint8_t {
 enum class StopState : std::uint8_t {
     moving,      ///< the axis is not known to have executed the request
     stopping,    ///< it has executed the request and still moves
-    confirmed,   ///< after executing the request it reported standstill, and no start is pending
+    confirmed,   ///< after executing the request it reported standstill
     unconfirmed, ///< it did not answer, or did not stop: it may still move
 };
 
@@ -42,8 +42,6 @@ struct StopFacts {
     std::uint64_t status_us = 0; ///< earliest instant at which the reported state was true; 0: no report yet
     bool standstill = false;     ///< it reports standstill
     bool braking = false;        ///< it reports that it brakes, and its speed falls: it needs its own time
-    /// A start command is on its way or waits for its instant: the axis may begin to move without another command.
-    bool start_pending = false;
     StopRequest executed = StopRequest::none; ///< strongest request that it is known to have executed
     std::uint64_t executed_us = 0;            ///< latest instant at which it executed that request
     bool on_path = true;                      ///< the axes stand together at a point of the path
@@ -60,6 +58,9 @@ struct StopTimes {
     /// An axis must report standstill for this long, in at least StopSequence::least_statuses statuses.
     std::uint64_t settle_us = 20'000;
     StopRequest last = StopRequest::disable; ///< strongest request that escalation may reach
+
+    /// Of a stop that begins with a hold, where no axis brakes: then its end is known. [us]
+    [[nodiscard]] std::uint64_t longest_us() const noexcept { return hold_us + quick_stop_us + disable_us; }
 };
 
 /// What a port reports of an axis or a drive: `quick_stop, confirmed`, ...
@@ -92,18 +93,17 @@ public:
     void request(StopRequest request, std::uint64_t now_us) noexcept;
     /// The same of one axis: for one that moves by itself (homing) a hold is not enough.
     void request(std::size_t axis, StopRequest request, std::uint64_t now_us) noexcept;
-    /// Cost: linear in the axes. @pre facts.size() is the number of axes
-    void update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept;
+    /// Returns whether an axis got its next request. Cost: linear in the axes. @pre facts.size() is the number of axes
+    bool update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept;
 
     [[nodiscard]] bool requested() const noexcept { return strongest_ != StopRequest::none; }
-    /// The strongest argument of request() so far.
-    [[nodiscard]] StopRequest strongest_request() const noexcept { return strongest_; }
     /// The request to send to the axis now; none: it has executed its request.
     [[nodiscard]] StopRequest to_send(std::size_t axis) const noexcept;
     [[nodiscard]] StopReport report(std::size_t axis) const noexcept;
     /// True when every axis is confirmed or unconfirmed: waiting longer changes nothing. False before a request.
     [[nodiscard]] bool settled() const noexcept;
-    [[nodiscard]] bool all_confirmed() const noexcept;
+    /// The first axis whose stop is not confirmed; the last one if all are.
+    [[nodiscard]] std::size_t unconfirmed() const noexcept;
 
 private:
     struct Axis {
@@ -117,7 +117,7 @@ private:
 
     [[nodiscard]] std::uint64_t bound_us(StopRequest request) const noexcept;
     void assess(Axis& axis, const StopFacts& facts) const noexcept;
-    void escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept;
+    bool escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept;
 
     StopTimes times_;
     std::vector<Axis> axes_;

@@ -30,13 +30,17 @@ GpioChips::GpioChips(const hal::gpio::LineMap& map, const MachineDescription& ma
         claims_.emplace_back(chip);
     }
     for (const hal::gpio::ChipLines& chip : map.chips) {
-        writer_.push_back(chip.outputs.empty() ? nullptr : std::make_unique<Writer>(chip, map.consumer));
-        source_.push_back(chip.inputs.empty() ? nullptr : std::make_unique<Source>(chip, map.consumer));
+        writer_.push_back(chip.outputs.empty()
+                              ? nullptr
+                              : std::make_unique<hal::gpio::OutputLines>(chip.chip, map.consumer, chip.outputs));
+        source_.push_back(chip.inputs.empty()
+                              ? nullptr
+                              : std::make_unique<hal::gpio::InputLines>(chip.chip, map.consumer, chip.inputs));
     }
     std::vector<hal::gpio::OutputLines*> lines;
     for (const auto& writer : writer_) {
         if (writer) {
-            lines.push_back(&writer->lines());
+            lines.push_back(writer.get());
         }
     }
     guard_.emplace(lines);
@@ -88,12 +92,9 @@ std::vector<std::uint64_t> GpioChips::set_times_ns(int calls) {
         if (!writer_[c]) {
             continue;
         }
-        std::uint64_t levels = 0;
-        std::uint64_t mask = 0;
-        for (std::size_t i = 0; i < map_->chips[c].outputs.size(); ++i) {
-            mask |= std::uint64_t{1} << i;
-            levels |= std::uint64_t{map_->chips[c].outputs[i].safe_level ? 1U : 0U} << i;
-        }
+        const auto& outputs = map_->chips[c].outputs;
+        const std::uint64_t levels = hal::gpio::safe_levels_of(outputs);
+        const std::uint64_t mask = ~std::uint64_t{0} >> (hal::gpio::most_lines - outputs.size());
         std::vector<std::uint64_t> times;
         std::uint64_t sum = 0;
         for (int i = 0; i < calls; ++i) {
@@ -111,19 +112,19 @@ std::vector<std::uint64_t> GpioChips::set_times_ns(int calls) {
 }
 
 void GpioChips::make_safe() noexcept {
-    for (const std::unique_ptr<Writer>& writer : writer_) {
+    for (const auto& writer : writer_) {
         if (writer) {
-            writer->lines().make_safe();
+            writer->make_safe();
         }
     }
 }
 
 void GpioChips::keep_drives_on() noexcept {
     if (map_->enable) {
-        writer_[map_->enable->line.chip]->lines().retain_levels(map_->enable->line.mask());
+        writer_[map_->enable->line.chip]->retain_levels(map_->enable->line.mask());
     }
     if (map_->brake) {
-        writer_[map_->brake->line.chip]->lines().retain_levels(map_->brake->line.mask());
+        writer_[map_->brake->line.chip]->retain_levels(map_->brake->line.mask());
     }
 }
 

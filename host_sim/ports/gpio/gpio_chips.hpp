@@ -7,7 +7,6 @@
 
 #include "splinefeed/hal/gpio/crash_guard.hpp"
 #include "splinefeed/hal/gpio/input_lines.hpp"
-#include "splinefeed/hal/gpio/input_source.hpp"
 #include "splinefeed/hal/gpio/line_map.hpp"
 #include "splinefeed/hal/gpio/step_port.hpp"
 
@@ -58,36 +57,11 @@ public:
     [[nodiscard]] std::string name(hal::gpio::LineBit input) const override;
 
 private:
-    class Writer final : public hal::gpio::LineWriter {
-    public:
-        Writer(const hal::gpio::ChipLines& chip, const std::string& consumer)
-            : lines_(chip.chip, consumer, chip.outputs) {}
-        [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
-            return lines_.set(mask, levels);
-        }
-        [[nodiscard]] hal::gpio::OutputLines& lines() noexcept { return lines_; }
-
-    private:
-        hal::gpio::OutputLines lines_;
-    };
-    class Source final : public hal::gpio::InputSource {
-    public:
-        Source(const hal::gpio::ChipLines& chip, const std::string& consumer)
-            : lines_(chip.chip, consumer, chip.inputs) {}
-        [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return lines_.levels(); }
-        [[nodiscard]] int wait(std::span<hal::gpio::InputEvent> out, std::uint32_t timeout_us) noexcept override {
-            return lines_.wait(out, timeout_us);
-        }
-
-    private:
-        hal::gpio::InputLines lines_;
-    };
-
     const hal::gpio::LineMap* map_;
     const MachineDescription* machine_;
     std::list<LineClaims> claims_;
-    std::vector<std::unique_ptr<Writer>> writer_; // one per chip; null: the chip has no outputs
-    std::vector<std::unique_ptr<Source>> source_; // one per chip; null: the chip has no inputs
+    std::vector<std::unique_ptr<hal::gpio::OutputLines>> writer_; // one per chip; null: the chip has no outputs
+    std::vector<std::unique_ptr<hal::gpio::InputLines>> source_;  // one per chip; null: the chip has no inputs
     std::optional<hal::gpio::CrashGuard> guard_;
 };
 

@@ -34,18 +34,11 @@ private:
     hal::gpio::CrashGuard guard_;
 };
 
-class ReadLines final : public hal::gpio::InputSource {
-public:
-    explicit ReadLines(const hal::gpio::ChipLines& chip)
-        : claims_(chip), lines_(chip.chip, line_consumer, chip.inputs) {}
-    [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return lines_.levels(); }
-    [[nodiscard]] int wait(std::span<hal::gpio::InputEvent> out, std::uint32_t timeout_us) noexcept override {
-        return lines_.wait(out, timeout_us);
-    }
+struct ReadLines {
+    explicit ReadLines(const hal::gpio::ChipLines& chip) : claims(chip), lines(chip.chip, line_consumer, chip.inputs) {}
 
-private:
-    LineClaims claims_;
-    hal::gpio::InputLines lines_;
+    LineClaims claims;
+    hal::gpio::InputLines lines;
 };
 
 } // namespace
@@ -55,7 +48,8 @@ ProgramChips open_program_chips(const ProgramLines& lines) {
     try {
         for (const hal::gpio::ChipLines& chip : lines.chips) {
             out.writer.push_back(chip.outputs.empty() ? nullptr : std::make_shared<GuardedLines>(chip));
-            out.source.push_back(chip.inputs.empty() ? nullptr : std::make_shared<ReadLines>(chip));
+            const auto read = chip.inputs.empty() ? nullptr : std::make_shared<ReadLines>(chip);
+            out.source.emplace_back(read, read ? &read->lines : nullptr);
         }
     } catch (const hal::gpio::GpioError& error) {
         throw TargetError(error.what());

@@ -3,7 +3,7 @@
 // lines_v2.cpp with 2.x. Internal to this folder.
 #pragma once
 
-#include "splinefeed/hal/gpio/line_request.hpp"
+#include "splinefeed/hal/gpio/line_lookup.hpp"
 
 #include <memory>
 #include <optional>
@@ -39,6 +39,16 @@ private:
     std::string path_;
     std::unique_ptr<Handle> handle_;
 };
+
+/// The offsets of the requested lines. Throws GpioError, as find_lines() does.
+template <class Request>
+[[nodiscard]] std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const Request> requests) {
+    std::vector<LineName> wanted;
+    for (const Request& request : requests) {
+        wanted.push_back(request.line);
+    }
+    return find_lines(chip.path(), chip.names(), wanted);
+}
 
 /// Up to 64 requested outputs.
 class OutputAccess {

@@ -3,7 +3,6 @@
 
 #include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/gpio/chip_access.hpp"
-#include "splinefeed/hal/gpio/line_lookup.hpp"
 
 #include <cerrno>
 #include <utility>
@@ -11,14 +10,6 @@
 namespace splinefeed::hal::gpio {
 
 namespace {
-
-std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const InputRequest> requests) {
-    std::vector<LineName> wanted;
-    for (const InputRequest& request : requests) {
-        wanted.push_back(request.line);
-    }
-    return find_lines(chip.path(), chip.names(), wanted);
-}
 
 // Insertion sort: the events are few and nearly sorted, and no allocation is allowed.
 void sort_by_time(std::span<InputEvent> events) noexcept {

@@ -9,7 +9,7 @@
 
 namespace splinefeed::hal::gpio {
 
-/// For one thread. The functions are those of InputLines.
+/// For one thread.
 class InputSource {
 public:
     InputSource() = default;

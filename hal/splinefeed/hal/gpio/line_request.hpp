@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,15 @@ struct OutputRequest {
     LineName line{};
     bool safe_level = false; ///< level at the request, after a crash and at the end
 };
+
+/// Bit i: the safe level of request i.
+[[nodiscard]] constexpr std::uint64_t safe_levels_of(std::span<const OutputRequest> requests) noexcept {
+    std::uint64_t levels = 0;
+    for (std::size_t i = 0; i < requests.size() && i < most_lines; ++i) {
+        levels |= std::uint64_t{requests[i].safe_level ? 1U : 0U} << i;
+    }
+    return levels;
+}
 
 struct InputRequest {
     LineName line{};

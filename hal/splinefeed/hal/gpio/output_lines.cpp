@@ -2,29 +2,12 @@
 #include "splinefeed/hal/gpio/output_lines.hpp"
 
 #include "splinefeed/hal/gpio/chip_access.hpp"
-#include "splinefeed/hal/gpio/line_lookup.hpp"
 
 #include <cerrno>
 
 namespace splinefeed::hal::gpio {
 
 namespace {
-
-std::uint64_t safe_levels_of(std::span<const OutputRequest> requests) {
-    std::uint64_t levels = 0;
-    for (std::size_t i = 0; i < requests.size() && i < most_lines; ++i) {
-        levels |= std::uint64_t{requests[i].safe_level ? 1U : 0U} << i;
-    }
-    return levels;
-}
-
-std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const OutputRequest> requests) {
-    std::vector<LineName> wanted;
-    for (const OutputRequest& request : requests) {
-        wanted.push_back(request.line);
-    }
-    return find_lines(chip.path(), chip.names(), wanted);
-}
 
 std::uint64_t mask_of(int size) {
     return ~std::uint64_t{0} >> (most_lines - static_cast<unsigned>(size));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
+#include "splinefeed/hal/gpio/line_writer.hpp"
 
 #include <atomic>
 #include <memory>
@@ -11,7 +12,7 @@
 namespace splinefeed::hal::gpio {
 
 /// One thread calls set(). Another thread or a signal handler may call make_safe() at any time.
-class OutputLines {
+class OutputLines final : public LineWriter {
 public:
     /// Requests the lines and sets their safe levels.
     /// @param chip  path, for example "/dev/gpiochip0"
@@ -19,17 +20,15 @@ public:
     /// @param requests  1 to 64; bit i of a mask is request i
     /// Throws GpioError; then no line is requested.
     OutputLines(const std::string& chip, const std::string& consumer, std::span<const OutputRequest> requests);
-    OutputLines(const OutputLines&) = delete;
-    OutputLines& operator=(const OutputLines&) = delete;
     /// Sets the safe levels and releases the lines. The chip decides what released lines do: most keep their level.
-    ~OutputLines();
+    ~OutputLines() override;
 
     /// Sets the lines of the mask to these levels by one system call; chips that support it change them at the same
     /// instant. Does not allocate or lock. libgpiod 1.x has no subsets: it writes the other lines with their present
     /// levels. Returns false on failure, with errno: the levels are unknown; with ECANCELED make_safe() intervened and
     /// the levels are safe.
     /// @pre mask has bits of existing lines only
-    bool set(std::uint64_t mask, std::uint64_t levels) noexcept;
+    bool set(std::uint64_t mask, std::uint64_t levels) noexcept override;
 
     /// Sets all lines to their safe levels, if the chip still works; set() may be called again afterwards. Preserves
     /// errno. Safe in a signal handler if libgpiod's call is: a loop over the lines and one ioctl, without locks or

@@ -8,14 +8,7 @@ namespace {
 using Phase = StepPhase;
 using Event = StepEvent;
 
-struct Change {
-    Phase from;
-    Event event;
-    Phase to;
-};
-
-// Where nothing is said, an event leaves the phase as it is.
-constexpr Change changes[] = {
+constexpr StepPhases::Change changes[] = {
     {Phase::off, Event::start, Phase::settling},          {Phase::settling, Event::ready, Phase::opening},
     {Phase::settling, Event::quick_stop, Phase::halted},  {Phase::opening, Event::opened, Phase::filling},
     {Phase::opening, Event::quick_stop, Phase::halted},   {Phase::filling, Event::filled, Phase::running},
@@ -32,24 +25,20 @@ constexpr Change changes[] = {
 };
 
 constexpr StepPhases::Table make_table() {
-    StepPhases::Table table{};
-    for (std::size_t phase = 0; phase < StepPhases::phases; ++phase) {
-        const auto own = static_cast<Phase>(phase);
-        table[phase].fill(own);
-        if (switched_off(own)) {
+    StepPhases::Table table = StepPhases::table_of(changes);
+    for (std::size_t i = 0; i < StepPhases::phases; ++i) {
+        const auto phase = static_cast<Phase>(i);
+        if (switched_off(phase)) {
             continue; // until they are cleared
         }
-        table[phase][static_cast<std::size_t>(Event::disable)] = Phase::disabled;
-        table[phase][static_cast<std::size_t>(Event::error)] = Phase::failed;
-        if (!axes_move(own)) {
-            table[phase][static_cast<std::size_t>(Event::park)] = Phase::off;
+        StepPhases::cell(table, phase, Event::disable) = Phase::disabled;
+        StepPhases::cell(table, phase, Event::error) = Phase::failed;
+        if (!axes_move(phase)) {
+            StepPhases::cell(table, phase, Event::park) = Phase::off;
         }
-        if (is_bounded(own)) {
-            table[phase][static_cast<std::size_t>(Event::overdue)] = Phase::failed;
+        if (is_bounded(phase)) {
+            StepPhases::cell(table, phase, Event::overdue) = Phase::failed;
         }
-    }
-    for (const Change& change : changes) {
-        table[static_cast<std::size_t>(change.from)][static_cast<std::size_t>(change.event)] = change.to;
     }
     return table;
 }
@@ -63,18 +52,13 @@ constexpr StepPhases::Table step_phase_table = make_table();
 
 StepPhases::Bounds step_phase_bounds(std::uint64_t settle_us, std::uint64_t release_us,
                                      std::uint64_t reserve_us) noexcept {
-    constexpr PhaseBound final{PhaseBound::final_us, ""};
-    StepPhases::Bounds bounds;
-    bounds.fill(final);
-    const auto set = [&](StepPhase phase, std::uint64_t most_us, const char* sentence) {
-        bounds[static_cast<std::size_t>(phase)] = {most_us + more_us, sentence};
-    };
-    set(Phase::settling, settle_us, "the drives were not ready in time (settle_ms)");
-    set(Phase::opening, release_us, "the brake was not open in time (release_ms)");
-    set(Phase::running, 0, "the motion does not advance");
-    set(Phase::slowing, 2 * reserve_us, "the axes did not slow down in time");
-    set(Phase::stopping, 2 * reserve_us, "the axes did not come to standstill in time");
-    return bounds;
+    return StepPhases::bounds_of({
+        {Phase::settling, {settle_us + more_us, "the drives were not ready in time (settle_ms)"}},
+        {Phase::opening, {release_us + more_us, "the brake was not open in time (release_ms)"}},
+        {Phase::running, {more_us, "the motion does not advance"}},
+        {Phase::slowing, {2 * reserve_us + more_us, "the axes did not slow down in time"}},
+        {Phase::stopping, {2 * reserve_us + more_us, "the axes did not come to standstill in time"}},
+    });
 }
 
 } // namespace splinefeed::hal::gpio

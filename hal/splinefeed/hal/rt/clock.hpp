@@ -38,8 +38,6 @@ public:
     [[nodiscard]] std::uint64_t now_us() const noexcept { return now_ns() / ns_per_us; }
     void sleep_until_us(std::uint64_t instant_us) noexcept { sleep_until_ns(instant_us * ns_per_us); }
     void sleep_us(std::uint64_t duration_us) noexcept { sleep_until_ns(now_ns() + duration_us * ns_per_us); }
-
-private:
 };
 
 /// The clock on CLOCK_MONOTONIC and the system's threads.

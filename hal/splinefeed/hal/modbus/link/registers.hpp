@@ -25,9 +25,26 @@ public:
         put16(static_cast<std::uint32_t>((bits >> 32U) & 0xFFFFU));
         put32(static_cast<std::uint32_t>(bits & 0xFFFFFFFFU));
     }
+    /// These numbers, in as many registers as their types have; std::int64_t in three.
+    template <class... Numbers>
+    void pass(const Numbers&... numbers) noexcept {
+        (put(numbers), ...);
+    }
+
     [[nodiscard]] std::size_t size() const noexcept { return at_; }
 
 private:
+    template <class Number>
+    void put(Number number) noexcept {
+        if constexpr (sizeof(Number) == 2) {
+            put16(static_cast<std::uint16_t>(number));
+        } else if constexpr (sizeof(Number) == 4) {
+            put32(static_cast<std::uint32_t>(number));
+        } else {
+            put48(number);
+        }
+    }
+
     std::span<std::uint16_t> registers_;
     std::size_t at_ = 0;
 };
@@ -48,7 +65,24 @@ public:
         return static_cast<std::int64_t>(bits ^ sign) - static_cast<std::int64_t>(sign);
     }
 
+    /// What RegisterWriter::pass() has written of numbers of these types.
+    template <class... Numbers>
+    void pass(Numbers&... numbers) noexcept {
+        ((numbers = next<Numbers>()), ...);
+    }
+
 private:
+    template <class Number>
+    [[nodiscard]] Number next() noexcept {
+        if constexpr (sizeof(Number) == 2) {
+            return static_cast<Number>(take16());
+        } else if constexpr (sizeof(Number) == 4) {
+            return static_cast<Number>(take32());
+        } else {
+            return take48();
+        }
+    }
+
     std::span<const std::uint16_t> registers_;
     std::size_t at_ = 0;
 };

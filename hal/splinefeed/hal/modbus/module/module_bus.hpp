@@ -14,8 +14,6 @@ namespace splinefeed::hal::modbus {
 
 /// A bit of a module.
 struct ModuleBit {
-    static constexpr int most_address = 65535;
-
     int unit = 1;
     BitTable table = BitTable::coils;
     int address = 0;  ///< as on the line, from 0

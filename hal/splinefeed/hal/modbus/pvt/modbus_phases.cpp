@@ -45,19 +45,19 @@ ModbusPhases::Bounds modbus_phase_bounds(const ModbusPhaseTimes& times) noexcept
     using enum ModbusPhase;
     const auto reserve_us = static_cast<std::uint64_t>(times.port.reserve_us);
     const auto segment_us = static_cast<std::uint64_t>(times.port.segment_us);
-    ModbusPhases::Bounds bounds;
-    bounds.fill({PhaseBound::final_us, ""});
-    const auto bound = [&](ModbusPhase phase, std::uint64_t most_us, DriveProblem problem) {
-        bounds[static_cast<std::size_t>(phase)] = {most_us, describe(problem)};
+    const auto bound = [](std::uint64_t most_us, DriveProblem problem) {
+        return PhaseBound{most_us, describe(problem)};
     };
-    bound(filling, times.port.away_us + phase_margin_us, DriveProblem::takes_nothing);
-    bound(waiting, times.port.away_us + phase_margin_us, DriveProblem::takes_nothing);
-    bound(starting, times.start_us, DriveProblem::ignores);
-    bound(running, times.port.away_us + 2 * segment_us + phase_margin_us, DriveProblem::frozen);
-    bound(stopping, times.ring_us + 2 * reserve_us + times.command_us + times.port.silent_us + phase_margin_us,
-          DriveProblem::not_standing);
-    bound(halting, times.stop_us + phase_margin_us, DriveProblem::not_standing);
-    return bounds;
+    const PhaseBound fed = bound(times.port.away_us + phase_margin_us, DriveProblem::takes_nothing);
+    return ModbusPhases::bounds_of({
+        {filling, fed},
+        {waiting, fed},
+        {starting, bound(times.start_us, DriveProblem::ignores)},
+        {running, bound(times.port.away_us + 2 * segment_us + phase_margin_us, DriveProblem::frozen)},
+        {stopping, bound(times.ring_us + 2 * reserve_us + times.command_us + times.port.silent_us + phase_margin_us,
+                         DriveProblem::not_standing)},
+        {halting, bound(times.stop_us + phase_margin_us, DriveProblem::not_standing)},
+    });
 }
 
 const char* name(ModbusPhase phase) noexcept {

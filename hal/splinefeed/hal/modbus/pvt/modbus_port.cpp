@@ -341,19 +341,6 @@ void ModbusPort::await_stop() noexcept {
     }
 }
 
-std::uint64_t ModbusPort::longest_stop_us() const noexcept {
-    return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
-}
-
-// The first drive whose stop is not confirmed.
-std::size_t ModbusPort::unconfirmed() const noexcept {
-    std::size_t i = 0;
-    while (i + 1 < drives_.size() && stop_report(i).state == StopState::confirmed) {
-        ++i;
-    }
-    return i;
-}
-
 PortState ModbusPort::poll() noexcept {
     update_drives();
     if (const auto event = look()) {
@@ -362,7 +349,7 @@ PortState ModbusPort::poll() noexcept {
         if (phase() == ModbusPhase::starting) {
             take(ModbusEvent::overdue);
         } else if (phase() == ModbusPhase::halting) { // a fault without a reason would be none
-            failure_ = failure_.value_or(DriveFailure{unconfirmed(), DriveProblem::not_standing});
+            failure_ = failure_.value_or(DriveFailure{stop_.sequence().unconfirmed(), DriveProblem::not_standing});
             take(ModbusEvent::overdue);
         } else {
             const DriveFailure late = culprit();

@@ -70,7 +70,7 @@ public:
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.sequence().report(drive); }
     /// Longest duration of a stop, whether the drives answer or not; a drive that brakes needs longer. [us] After
     /// prepare().
-    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
+    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept { return stop_times_.longest_us(); }
 
     [[nodiscard]] ModbusPhase phase() const noexcept { return phases_.phase(); }
     [[nodiscard]] const ModbusPhases& phases() const noexcept { return phases_; }
@@ -112,11 +112,9 @@ private:
     [[nodiscard]] std::uint64_t start_lead_us() const noexcept;
     [[nodiscard]] std::uint32_t common_end() const noexcept;
     void stop_together() noexcept;
-    [[nodiscard]] bool all_at_standstill() const noexcept;
     void begin_stop(StopRequest request, ModbusEvent event = ModbusEvent::stop) noexcept;
     void await_stop() noexcept;
     void follow_stop() noexcept;
-    [[nodiscard]] std::size_t unconfirmed() const noexcept;
     [[nodiscard]] std::uint32_t executed() const noexcept;
     [[nodiscard]] bool accepted_more() noexcept;
 

@@ -138,11 +138,6 @@ void ModbusPort::stop_together() noexcept {
     }
 }
 
-bool ModbusPort::all_at_standstill() const noexcept {
-    return std::all_of(drives_.begin(), drives_.end(),
-                       [&](const PortDrive& drive) { return drive.presumed_at_standstill(times_); });
-}
-
 bool ModbusPort::accepted_more() noexcept {
     std::uint32_t sum = 0;
     for (const PortDrive& drive : drives_) {
@@ -190,9 +185,7 @@ std::optional<ModbusEvent> ModbusPort::look_at_standstill() noexcept {
 
 // A host that paused may be late for each of its requests, so the phase's bound counts from the last one.
 void ModbusPort::follow_stop() noexcept {
-    const unsigned before = stop_.requests();
-    stop_.update(now_us_, drives_);
-    if (stop_.requests() != before) {
+    if (stop_.update(now_us_, drives_)) {
         phases_.progress(now_us_);
     }
 }
@@ -206,7 +199,10 @@ std::optional<ModbusEvent> ModbusPort::look() noexcept {
     case ModbusPhase::running: return look_at_motion();
     case ModbusPhase::stopping:
         stop_together();
-        return all_at_standstill() ? std::optional(ModbusEvent::stands) : std::nullopt;
+        return std::ranges::all_of(drives_,
+                                   [&](const PortDrive& drive) { return drive.presumed_at_standstill(times_); })
+                   ? std::optional(ModbusEvent::stands)
+                   : std::nullopt;
     case ModbusPhase::halting:
     case ModbusPhase::halted:
     case ModbusPhase::fault:

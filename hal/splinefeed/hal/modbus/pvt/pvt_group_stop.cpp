@@ -36,15 +36,7 @@ bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
     return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));
 }
 
-unsigned PvtGroupStop::requests() const noexcept {
-    unsigned sum = 0;
-    for (std::size_t i = 0; i < stops_.size(); ++i) {
-        sum += static_cast<unsigned>(sequence_.report(i).request);
-    }
-    return sum;
-}
-
-void PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
+bool PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
     for (std::size_t i = 0; i < drives.size(); ++i) {
         stops_[i].update(drives[i].last_report(), times_);
         facts_[i] = stops_[i].facts();
@@ -53,12 +45,13 @@ void PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drive
     for (StopFacts& facts : facts_) {
         facts.on_path = together;
     }
-    sequence_.update(now_us, facts_);
+    const bool grew = sequence_.update(now_us, facts_);
     for (std::size_t i = 0; i < drives.size(); ++i) {
         if (const StopRequest request = sequence_.to_send(i); request != StopRequest::none) {
             stops_[i].send_once(request, hold_at_us_);
         }
     }
+    return grew;
 }
 
 } // namespace splinefeed::hal::modbus

@@ -28,11 +28,10 @@ public:
     /// @param hold_at_us  when a hold begins for all drives; used with the first request [us]
     void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
                  std::span<const PortDrive> drives) noexcept;
-    /// Evaluates the drives' last reports and sends the required commands. Call periodically.
-    void update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
+    /// Evaluates the drives' last reports and sends the required commands. Call periodically. Returns whether a drive
+    /// got its next request, because its sequence escalated.
+    bool update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
     [[nodiscard]] const StopSequence& sequence() const noexcept { return sequence_; }
-    /// Grows with each request that a drive gets: the next one of a sequence that escalates, too.
-    [[nodiscard]] unsigned requests() const noexcept;
 
 private:
     [[nodiscard]] bool on_path(std::span<const PortDrive> drives) const noexcept;

@@ -23,6 +23,41 @@ std::uint32_t checksum(std::span<const std::uint16_t> block) noexcept {
     return crc32(block.subspan(pvt::block_head_registers), crc32(block.first(checksum_at)));
 }
 
+// The numbers of each table in their order: `io` writes or reads them.
+
+template <class Io, class Identity>
+void pass_identity(Io io, Identity& identity) noexcept {
+    io.pass(identity.magic, identity.version, identity.axes, identity.ring, identity.ticks_per_s, identity.boot,
+            identity.check_16, identity.check_32);
+}
+
+template <class Io, class Configuration>
+void pass_configuration(Io io, Configuration& configuration) noexcept {
+    io.pass(configuration.watchdog_ms, configuration.stop_reserve_ms, configuration.following_window);
+}
+
+/// All but its checksum.
+template <class Io, class Status>
+void pass_status(Io& io, Status& status, int axes) noexcept {
+    io.pass(status.nonce, status.state, status.fault, status.fault_axis, status.next, status.executed, status.free,
+            status.refused, status.refusals, status.last_command, status.clock_us, status.boot);
+    for (const unsigned k : indices(axes)) {
+        io.pass(status.position[k], status.following_error[k]);
+    }
+}
+
+template <class Io, class Block>
+void pass_head(Io& io, Block& block) noexcept {
+    io.pass(block.nonce, block.session, block.command, block.command_counter, block.argument, block.count, block.first);
+}
+
+template <class Io, class Segment>
+void pass_ends(Io& io, Segment& segment, int axes) noexcept {
+    for (const unsigned k : indices(axes)) {
+        io.pass(segment.end[k], segment.end_velocity[k]);
+    }
+}
+
 constexpr std::int64_t largest_48 = (std::int64_t{1} << 47U) - 1;
 
 // Quotient rounded to nearest, ties upwards; empty if it does not fit a signed 48-bit number.
@@ -84,20 +119,11 @@ bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegmen
 std::size_t encode(const PvtBlock& block, std::span<const PvtSegment> segments, int axes,
                    PvtBlockRegisters& out) noexcept {
     RegisterWriter writer(out);
-    writer.put16(block.nonce);
-    writer.put16(block.session);
-    writer.put16(static_cast<std::uint16_t>(block.command));
-    writer.put16(block.command_counter);
-    writer.put32(block.argument);
-    writer.put16(block.count);
-    writer.put32(block.first);
+    pass_head(writer, block);
     writer.put32(0);
     for (const PvtSegment& segment : segments.first(block.count)) {
         writer.put32(segment.duration_ticks | (segment.rest ? pvt::rest_mark : 0));
-        for (const unsigned k : indices(axes)) {
-            writer.put48(segment.end[k]);
-            writer.put48(segment.end_velocity[k]);
-        }
+        pass_ends(writer, segment, axes);
     }
     const std::size_t size = writer.size();
     RegisterWriter(std::span(out).subspan(checksum_at, 2)).put32(checksum(std::span(out).first(size)));
@@ -111,13 +137,7 @@ std::optional<PvtBlock> decode_block(std::span<const std::uint16_t> registers, i
     }
     RegisterReader reader(registers);
     PvtBlock block;
-    block.nonce = reader.take16();
-    block.session = reader.take16();
-    block.command = static_cast<PvtCommand>(reader.take16());
-    block.command_counter = reader.take16();
-    block.argument = reader.take32();
-    block.count = reader.take16();
-    block.first = reader.take32();
+    pass_head(reader, block);
     static_cast<void>(reader.take32());
     if (block.count > pvt::most_segments(axes) ||
         registers.size() != pvt::block_head_registers + block.count * pvt::segment_registers(axes)) {
@@ -127,10 +147,7 @@ std::optional<PvtBlock> decode_block(std::span<const std::uint16_t> registers, i
         const std::uint32_t duration = reader.take32();
         segment.duration_ticks = duration & ~pvt::rest_mark;
         segment.rest = (duration & pvt::rest_mark) != 0;
-        for (const unsigned k : indices(axes)) {
-            segment.end[k] = reader.take48();
-            segment.end_velocity[k] = reader.take48();
-        }
+        pass_ends(reader, segment, axes);
     }
     return block;
 }
@@ -141,66 +158,29 @@ bool checksum_holds(std::span<const std::uint16_t> block) noexcept {
 }
 
 void encode(const PvtIdentity& identity, std::span<std::uint16_t, pvt::identity_registers> out) noexcept {
-    RegisterWriter writer(out);
-    writer.put16(identity.magic);
-    writer.put16(identity.version);
-    writer.put16(identity.axes);
-    writer.put16(identity.ring);
-    writer.put32(identity.ticks_per_s);
-    writer.put32(identity.boot);
-    writer.put16(identity.check_16);
-    writer.put32(identity.check_32);
+    pass_identity(RegisterWriter(out), identity);
 }
 
 PvtIdentity decode_identity(std::span<const std::uint16_t, pvt::identity_registers> in) noexcept {
-    RegisterReader reader(in);
     PvtIdentity identity;
-    identity.magic = reader.take16();
-    identity.version = reader.take16();
-    identity.axes = reader.take16();
-    identity.ring = reader.take16();
-    identity.ticks_per_s = reader.take32();
-    identity.boot = reader.take32();
-    identity.check_16 = reader.take16();
-    identity.check_32 = reader.take32();
+    pass_identity(RegisterReader(in), identity);
     return identity;
 }
 
 void encode(const PvtConfiguration& configuration,
             std::span<std::uint16_t, pvt::configuration_registers> out) noexcept {
-    RegisterWriter writer(out);
-    writer.put16(configuration.watchdog_ms);
-    writer.put16(configuration.stop_reserve_ms);
-    writer.put32(configuration.following_window);
+    pass_configuration(RegisterWriter(out), configuration);
 }
 
 PvtConfiguration decode_configuration(std::span<const std::uint16_t, pvt::configuration_registers> in) noexcept {
-    RegisterReader reader(in);
     PvtConfiguration configuration;
-    configuration.watchdog_ms = reader.take16();
-    configuration.stop_reserve_ms = reader.take16();
-    configuration.following_window = reader.take32();
+    pass_configuration(RegisterReader(in), configuration);
     return configuration;
 }
 
 void encode(const PvtStatus& status, int axes, std::span<std::uint16_t> out) noexcept {
     RegisterWriter writer(out);
-    writer.put16(status.nonce);
-    writer.put16(static_cast<std::uint16_t>(status.state));
-    writer.put16(status.fault);
-    writer.put16(status.fault_axis);
-    writer.put32(status.next);
-    writer.put32(status.executed);
-    writer.put16(status.free);
-    writer.put16(static_cast<std::uint16_t>(status.refused));
-    writer.put16(status.refusals);
-    writer.put16(status.last_command);
-    writer.put32(status.clock_us);
-    writer.put32(status.boot);
-    for (const unsigned k : indices(axes)) {
-        writer.put32(static_cast<std::uint32_t>(status.position[k]));
-        writer.put32(static_cast<std::uint32_t>(status.following_error[k]));
-    }
+    pass_status(writer, status, axes);
     writer.put32(crc32(out.first(writer.size())));
 }
 
@@ -212,22 +192,7 @@ bool status_holds(std::span<const std::uint16_t> status) noexcept {
 PvtStatus decode_status(std::span<const std::uint16_t> in, int axes) noexcept {
     RegisterReader reader(in);
     PvtStatus status;
-    status.nonce = reader.take16();
-    status.state = static_cast<PvtState>(reader.take16());
-    status.fault = reader.take16();
-    status.fault_axis = reader.take16();
-    status.next = reader.take32();
-    status.executed = reader.take32();
-    status.free = reader.take16();
-    status.refused = static_cast<PvtRefusal>(reader.take16());
-    status.refusals = reader.take16();
-    status.last_command = reader.take16();
-    status.clock_us = reader.take32();
-    status.boot = reader.take32();
-    for (const unsigned k : indices(axes)) {
-        status.position[k] = static_cast<std::int32_t>(reader.take32());
-        status.following_error[k] = static_cast<std::int32_t>(reader.take32());
-    }
+    pass_status(reader, status, axes);
     return status;
 }
 

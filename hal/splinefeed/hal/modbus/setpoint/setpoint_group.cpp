@@ -5,7 +5,6 @@
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_setup.hpp"
-#include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
 #include "splinefeed/hal/rt/wait_until.hpp"
 
 #include <algorithm>
@@ -95,32 +94,54 @@ PortFailure SetpointGroup::configure() {
     return trouble;
 }
 
+// Polls each of the first drives, which are enabled, but one, while that one is made ready: it feeds their watchdogs
+// and detects their faults.
+PortFailure SetpointGroup::poll_others(std::size_t but, std::size_t enabled) const {
+    for (std::size_t i = 0; i < enabled; ++i) {
+        if (i == but) {
+            continue;
+        }
+        static_cast<void>(drive(i).read_next());
+        const DriveReading& reading = drive(i).reading();
+        if (reading.state == DriveState::fault) {
+            return {fault_sentence(reading), i};
+        }
+        if (reading.state == DriveState::disabled) {
+            return {"it was disabled while another drive was prepared", i};
+        }
+        if (settings_->clock->now_us() > drive(i).answered_us() + settings_->away_us) {
+            return {silence(drive(i).last_answer(), &drive(i).link()), i};
+        }
+    }
+    return {};
+}
+
 // Enables all drives before the first one is homed.
 PortFailure SetpointGroup::make_ready(const FeedSegment& first, bool placed) {
     if (PortFailure trouble = configure()) {
         return trouble;
     }
-    SetpointStandby standby(settings_->away_us);
+    std::size_t ready = 0;
     for (const bool enabled : {false, true}) {
         for (std::size_t i = 0; i < slots_.size(); ++i) {
             Slot& slot = slots_[i];
-            bool elsewhere = false;
+            std::size_t troubled = i;
             SetpointSetup setup(drive(i), {.home = homes(slot.wiring),
                                            .reset = settings_->reset,
                                            .away_us = settings_->away_us,
                                            .interrupted = settings_->interrupted,
                                            .meanwhile = [&] {
-                                               std::string what = standby.poll_others(drive(i));
-                                               elsewhere = elsewhere || !what.empty();
-                                               return what;
+                                               PortFailure other = poll_others(i, ready);
+                                               troubled = other ? other.drive : troubled;
+                                               return other.what;
                                            }});
             if (std::string what = enabled ? setup.begin() : setup.enable(); !what.empty()) {
                 slot.homing = setup.homing();
-                return {what, elsewhere ? standby.troubled() : i, setup.needs_reset() ? Remedy::reset : Remedy::none};
+                return {what, troubled, setup.needs_reset() ? Remedy::reset : Remedy::none};
             }
             const std::int64_t start = first.start[static_cast<std::size_t>(slot.wiring.axis)];
             if (!enabled) {
-                standby.add(drive(i));
+                ++ready;
             } else if (!(placed && slot.frame.aligned()) && !slot.frame.align(drive(i).reading().position_q16, start)) {
                 return {AxisFrame::out_of_range, i};
             }

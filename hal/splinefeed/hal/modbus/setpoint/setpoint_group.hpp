@@ -101,6 +101,7 @@ private:
     };
 
     [[nodiscard]] PortFailure configure();
+    [[nodiscard]] PortFailure poll_others(std::size_t but, std::size_t enabled) const;
     [[nodiscard]] bool homes(const SetpointWiring& wiring) const noexcept {
         return settings_->home && (settings_->home_axes >> static_cast<unsigned>(wiring.axis) & 1U) != 0;
     }

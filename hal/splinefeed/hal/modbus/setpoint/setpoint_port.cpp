@@ -181,16 +181,7 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     for (StopFacts& facts : facts_) {
         facts.on_path = together;
     }
-    const auto requests = [this] {
-        std::size_t sum = 0;
-        for (std::size_t i = 0; i < group_.size(); ++i) {
-            sum += static_cast<std::size_t>(stop_.report(i).request);
-        }
-        return sum;
-    };
-    const std::size_t before = requests();
-    stop_.update(now_us, facts_);
-    if (requests() != before) {
+    if (stop_.update(now_us, facts_)) {
         phases_.progress(now_us);
     }
     for (std::size_t i = 0; i < group_.size(); ++i) {
@@ -302,11 +293,7 @@ void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
     const char* const late = phases_.overdue(now_us);
     if (late != nullptr && phase == Phase::ending) {
         if (!trouble_) { // a fault without a sentence would be a run that ended well
-            std::size_t moving = 0;
-            while (moving + 1 < facts_.size() && stop_.report(moving).state == StopState::confirmed) {
-                ++moving;
-            }
-            trouble_ = {late, moving};
+            trouble_ = {late, stop_.unconfirmed()};
         }
         static_cast<void>(phases_.take(Event::fails, now_us));
     } else if (late != nullptr) {

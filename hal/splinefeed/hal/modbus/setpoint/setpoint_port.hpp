@@ -53,9 +53,7 @@ public:
     /// State of a drive's stop after halt(), quick_stop() or a fault of the port. No stop requested: StopRequest::none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
     /// Longest duration of a stop, whether the drives answer or not. [us] After prepare().
-    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept {
-        return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
-    }
+    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept { return stop_times_.longest_us(); }
 
     [[nodiscard]] std::size_t drives() const noexcept { return group_.size(); }
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept { return group_.report(drive); }

@@ -36,10 +36,6 @@ std::string SetpointSetup::await(const Condition& condition, std::uint64_t bound
     return !trouble_.empty() ? trouble_ : late != nullptr ? late : "";
 }
 
-std::string SetpointSetup::await_state(DriveState state, const char* sentence) {
-    return await([&] { return drive_->read_status() && drive_->reading().state == state; }, state_us, sentence);
-}
-
 bool SetpointSetup::read() {
     return drive_->retry([this] { return drive_->read_status(); });
 }
@@ -125,7 +121,8 @@ std::string SetpointSetup::enable() {
     if (!command(DriveCommand::enable)) {
         return failed("it cannot be enabled");
     }
-    std::string what = await_state(DriveState::enabled, "it does not report that it is enabled");
+    std::string what = await([&] { return drive_->read_status() && drive_->reading().state == DriveState::enabled; },
+                             state_us, "it does not report that it is enabled");
     const bool tripped = !what.empty() && trouble_.empty() && drive_->reading().state == DriveState::fault;
     return tripped ? fault_sentence(drive_->reading()) : what;
 }

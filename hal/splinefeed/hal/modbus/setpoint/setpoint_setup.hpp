@@ -36,7 +36,6 @@ private:
     [[nodiscard]] bool others_fine();
     template <class Condition>
     [[nodiscard]] std::string await(const Condition& condition, std::uint64_t bound_us, const char* sentence);
-    [[nodiscard]] std::string await_state(DriveState state, const char* sentence);
     [[nodiscard]] bool read();
     [[nodiscard]] bool command(DriveCommand command);
     [[nodiscard]] std::string failed(const char* what) const;
