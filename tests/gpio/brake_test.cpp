@@ -21,39 +21,17 @@ MachineDescription with_end(std::optional<bool> on_at_end) {
 struct Bench : TargetRig {
     explicit Bench(std::optional<bool> on_at_end = {}) : TargetRig(with_end(on_at_end), braked_map) {}
     /// Until it is over, or `cause` happens at an instant. [ms]
-    hal::PortPhase run(double at_ms, const std::function<void()>& cause) {
-        RunTarget& run_target = *target;
-        StraightMotion motion(machine, {0.0, 0.0}, {20.0, 10.0}, 100.0);
-        FeedSegment segment;
-        REQUIRE(motion.next(segment));
+    hal::PortPhase run(double at_ms = 0.0, std::function<void()> cause = {}) {
+        TargetRun run(*this, {20.0, 10.0});
         const std::uint64_t began_ns = clock.now_ns();
-        hal::MotionPort& port = run_target.port();
-        REQUIRE_FALSE(port.prepare(segment));
-        bool more = true;
-        bool caused = false;
-        for (int i = 0; i < 5000; ++i) {
-            if (!caused && static_cast<double>(clock.now_ns() - began_ns) >= at_ms * 1e6) {
-                caused = true;
-                cause();
+        hal::PortPhase phase = hal::PortPhase::running;
+        for (int i = 0; i < 5000 && phase == hal::PortPhase::running; ++i) {
+            if (cause && static_cast<double>(clock.now_ns() - began_ns) >= at_ms * 1e6) {
+                std::exchange(cause, {})();
             }
-            if (!run_target.holds().empty()) {
-                motion.hold();
-            }
-            while (more && port.room() > 0 && port.submit(segment)) {
-                more = motion.next(segment);
-                if (!more) {
-                    port.complete();
-                }
-            }
-            if (const hal::PortPhase phase = port.poll().phase; phase != hal::PortPhase::running) {
-                return phase;
-            }
-            clock.sleep_us(1000);
+            phase = run.tick();
         }
-        return hal::PortPhase::running;
-    }
-    hal::PortPhase run() {
-        return run(1e9, [] {});
+        return phase;
     }
     /// When the levels first were like that, from a row on.
     template <class Condition>

@@ -14,8 +14,7 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr double to_x_mm = 200.0;
-constexpr double to_y_mm = 100.0;
+constexpr PerAxis<double> to_mm{200.0, 100.0};
 
 MachineDescription with_travel() {
     MachineDescription machine = two_axes();
@@ -66,22 +65,15 @@ struct Outcome {
     std::int64_t after = 0;     ///< steps after the end
 };
 
-/// As Supervision and Motion do it, each millisecond.
-Outcome run(Bench& bench, const Story& story) {
-    GpioTarget& target = *bench.target;
-    RunTarget& run_target = target;
-    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
-    std::optional<FeedSegment> next(std::in_place);
-    REQUIRE(motion.next(*next));
-    hal::MotionPort& port = run_target.port();
-    REQUIRE_FALSE(port.prepare(*next));
+Outcome run_of(Bench& bench, const Story& story) {
+    TargetRun run(bench, to_mm);
+    hal::MotionPort& port = run.port;
     bool caused = false;
     bool twice = false;
-    bool completed = false;
     Outcome outcome;
     const double begin_ms = bench.now_ms();
     double caused_ms = 0.0;
-    for (int i = 0; i < 30'000; ++i) {
+    for (int i = 0; i < 30'000 && outcome.phase == hal::PortPhase::running; ++i) {
         const double t = bench.now_ms() - begin_ms;
         if (!caused && story.cause != Story::Cause::none && t >= story.at_ms) {
             caused = true;
@@ -101,31 +93,11 @@ Outcome run(Bench& bench, const Story& story) {
             twice = true;
             port.quick_stop();
         }
-        if (!target.holds().empty()) {
-            motion.hold();
-        }
-        const bool delivers = !(caused && story.blocked);
-        while (delivers && next && port.room() > 0) {
-            if (!port.submit(*next)) {
-                break;
-            }
-            if (!motion.next(*next)) {
-                next.reset();
-            }
-        }
-        if (delivers && !next && !completed) {
-            completed = true;
-            port.complete();
-        }
-        outcome.phase = port.poll().phase;
-        if (outcome.phase != hal::PortPhase::running) {
-            break;
-        }
-        bench.clock.sleep_us(1000);
+        outcome.phase = run.tick(!(caused && story.blocked));
     }
     outcome.why = outcome.phase == hal::PortPhase::fault    ? port.failure().what
-                  : outcome.phase == hal::PortPhase::halted ? run_target.halted(twice)
-                                                            : target.holds();
+                  : outcome.phase == hal::PortPhase::halted ? run.target.halted(twice)
+                                                            : run.target.holds();
     outcome.standstill_ms = std::max(0.0, bench.last_step_ms() - caused_ms);
     outcome.over_ms = bench.now_ms() - caused_ms;
     const std::size_t rows = bench.lines->rows().size();
@@ -138,7 +110,7 @@ Outcome run(Bench& bench, const Story& story) {
 void require_on_path(const Bench& bench) {
     const auto x = static_cast<double>(bench.steps(0));
     const auto y = static_cast<double>(bench.steps(1));
-    CHECK(std::fabs(y - x * to_y_mm / to_x_mm) <= 1.0);
+    CHECK(std::fabs(y - x * to_mm[1] / to_mm[0]) <= 1.0);
     CHECK(bench.target->where() ==
           fmt::format("; the machine stands at x={:.4f} y={:.4f} mm", x / steps_per_mm, y / steps_per_mm));
 }
@@ -147,7 +119,7 @@ void require_on_path(const Bench& bench) {
 
 TEST_CASE("a run on lines ends where its plan ends", "[stopping]") {
     Bench bench;
-    const Outcome outcome = run(bench, {});
+    const Outcome outcome = run_of(bench, {});
     CHECK(outcome.phase == hal::PortPhase::idle);
     CHECK(bench.steps(0) == 16'000);
     CHECK(bench.steps(1) == 8'000);
@@ -197,7 +169,7 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
                         .with_edge = true};
             Bench bench;
             CAPTURE(kinds[kind].name, story.at_ms, round);
-            const Outcome outcome = run(bench, story);
+            const Outcome outcome = run_of(bench, story);
             REQUIRE(outcome.phase == kinds[kind].phase);
             CHECK(outcome.why.find(kinds[kind].why) != std::string::npos);
             CHECK(outcome.standstill_ms <= kinds[kind].standstill_ms);
@@ -224,17 +196,11 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
 
 TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopping]") {
     Bench bench;
-    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
-    FeedSegment segment;
-    REQUIRE(motion.next(segment));
-    RunTarget& target = *bench.target;
-    REQUIRE_FALSE(target.port().prepare(segment));
+    TargetRun run(bench, to_mm);
     while (bench.now_ms() < 500.0) {
-        while (target.port().room() > 0 && target.port().submit(segment)) {
-            REQUIRE(motion.next(segment));
-        }
-        bench.clock.sleep_us(1000);
+        REQUIRE(run.tick() == hal::PortPhase::running);
     }
+    RunTarget& target = run.target;
     CHECK(target.places()[0].known()); // as far as it has come
     target.port().quick_stop();
     CHECK_FALSE(target.places()[0].known());
@@ -244,7 +210,7 @@ TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopp
 
 TEST_CASE("an axis that did not find its reference has no place, the others do", "[stopping]") {
     Bench bench({.home = true});
-    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
+    StraightMotion motion(bench.machine, {0.0, 0.0}, to_mm, 100.0);
     FeedSegment first;
     REQUIRE(motion.next(first));
     RunTarget& target = *bench.target;
@@ -260,13 +226,13 @@ TEST_CASE("an axis that did not find its reference has no place, the others do",
 TEST_CASE("a switch whose edge nobody told stops the machine by its level", "[stopping]") {
     Bench bench;
     SECTION("limit") {
-        const Outcome outcome = run(bench, {.cause = Story::Cause::limit, .at_ms = 300.0, .with_edge = false});
+        const Outcome outcome = run_of(bench, {.cause = Story::Cause::limit, .at_ms = 300.0, .with_edge = false});
         CHECK(outcome.phase == hal::PortPhase::idle);
         CHECK(outcome.why.find("the limit of axis x") != std::string::npos);
         CHECK(outcome.standstill_ms < 200.0);
     }
     SECTION("e-stop") {
-        const Outcome outcome = run(bench, {.cause = Story::Cause::e_stop, .at_ms = 300.0, .with_edge = false});
+        const Outcome outcome = run_of(bench, {.cause = Story::Cause::e_stop, .at_ms = 300.0, .with_edge = false});
         CHECK(outcome.phase == hal::PortPhase::fault);
         CHECK(outcome.standstill_ms < 25.0); // levels are looked at every 5 ms, three times
     }
@@ -276,27 +242,15 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
           "[stopping]") {
     const double stall_ms = GENERATE(20.0, 39.0, 45.0, 1000.0);
     Bench bench;
-    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
-    FeedSegment segment;
-    REQUIRE(motion.next(segment));
-    RunTarget& target = *bench.target;
-    REQUIRE_FALSE(target.port().prepare(segment));
+    TargetRun run(bench, to_mm);
     bool stalled = false;
-    bool more = true;
     hal::PortPhase phase = hal::PortPhase::running;
     for (int i = 0; i < 10'000 && phase == hal::PortPhase::running; ++i) {
-        while (more && target.port().room() > 0 && target.port().submit(segment)) {
-            more = motion.next(segment);
-        }
-        if (!more) {
-            target.port().complete();
-        }
         if (!stalled && bench.now_ms() > 800.0) {
             stalled = true;
             bench.lines->stall(static_cast<std::uint64_t>(stall_ms * 1e6));
         }
-        phase = target.port().poll().phase;
-        bench.clock.sleep_us(1000);
+        phase = run.tick();
     }
     CAPTURE(stall_ms);
     if (stall_ms < 40.0) {
@@ -304,7 +258,8 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
         CHECK(bench.steps(0) == 16'000);
     } else {
         CHECK(phase == hal::PortPhase::fault);
-        CHECK(target.port().failure().what.find("no step was made for longer than 40 ms") != std::string::npos);
+        RunTarget& target = run.target;
+        CHECK(run.port.failure().what.find("no step was made for longer than 40 ms") != std::string::npos);
         CHECK(target.where().find("is not known") != std::string::npos);
         CHECK_FALSE(target.places().front().known());
         CHECK(bench.last_step_ms() < 800.0 + stall_ms + 2.0);

@@ -1,78 +1,66 @@
 // SPDX-License-Identifier: MIT
-// InputWatch on a chip of the test: what acts, since when, and where the axes stood.
+// InputWatch on a chip of the test and a virtual clock: what acts, since when, and where the axes stood.
 #include "splinefeed/hal/gpio/input_watch.hpp"
-#include "splinefeed/hal/rt/clock.hpp"
-#include "splinefeed/hal/rt/real_time.hpp"
 #include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
 
 #include <cerrno>
-#include <chrono>
 #include <deque>
-#include <thread>
 
 using namespace splinefeed;
 using namespace splinefeed::hal::gpio;
+using namespace splinefeed_test;
 
 namespace {
 
+/// On a virtual clock, whose threads take turns.
 class ScriptedSource final : public InputSource {
 public:
-    [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override {
-        const std::lock_guard lock(mutex_);
-        return levels_;
-    }
+    explicit ScriptedSource(VirtualClock& clock) : clock_(&clock) {}
+    [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return levels_; }
     [[nodiscard]] int wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept override {
-        const std::uint64_t until = hal::system_clock().now_ns() + timeout_us * 1000ULL;
-        for (;;) {
-            {
-                const std::lock_guard lock(mutex_);
-                if (broken_) {
-                    errno = ENODEV;
-                    return -1;
-                }
-                std::size_t count = 0;
-                for (; !events_.empty() && count < out.size(); ++count) {
-                    out[count] = events_.front();
-                    events_.pop_front();
-                }
-                if (count > 0 || hal::system_clock().now_ns() >= until) {
-                    return static_cast<int>(count);
-                }
-            }
-            std::this_thread::sleep_for(std::chrono::microseconds(100));
+        const std::uint64_t until_us = clock_->now_us() + timeout_us;
+        while (!broken_ && events_.empty() && clock_->now_us() < until_us) {
+            clock_->sleep_us(100);
         }
+        if (broken_) {
+            errno = ENODEV;
+            return -1;
+        }
+        std::size_t count = 0;
+        for (; !events_.empty() && count < out.size(); ++count) {
+            out[count] = events_.front();
+            events_.pop_front();
+        }
+        return static_cast<int>(count);
     }
 
     void drive(unsigned line, bool level, std::uint64_t time_ns, bool with_edge = true) {
-        const std::lock_guard lock(mutex_);
         levels_ = (levels_ & ~(std::uint64_t{1} << line)) | (std::uint64_t{level} << line);
         if (with_edge) {
             events_.push_back({static_cast<std::uint8_t>(line), level, time_ns, 0});
         }
     }
-    void vanish() {
-        const std::lock_guard lock(mutex_);
-        broken_ = true;
-    }
+    void vanish() { broken_ = true; }
 
 private:
-    std::mutex mutex_;
+    VirtualClock* clock_;
     std::deque<InputEvent> events_;
     std::uint64_t levels_ = 0;
     bool broken_ = false;
 };
 
-template <class F>
-bool soon(F condition) {
-    for (int i = 0; i < 2000 && !condition(); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return condition();
-}
-
 struct Bench {
     explicit Bench(const std::vector<WatchedInput>& inputs)
-        : watch(source, inputs, log, [this] { trips.fetch_add(1); }) {}
+        : watch(source, inputs, log, [this] { ++trips; }, {.clock = &clock}) {}
+
+    template <class F>
+    [[nodiscard]] bool soon(F condition) {
+        for (int i = 0; i < 2000 && !condition(); ++i) {
+            clock.sleep_us(1000);
+        }
+        return condition();
+    }
 
     InputChange next() {
         std::optional<InputChange> change;
@@ -80,9 +68,10 @@ struct Bench {
         return *change;
     }
 
-    ScriptedSource source;
+    VirtualClock clock;
+    ScriptedSource source{clock};
     StepLog log;
-    std::atomic<int> trips{0};
+    int trips = 0;
     InputWatch watch;
 };
 
@@ -90,8 +79,8 @@ struct Bench {
 
 TEST_CASE("an input acts since its first edge, however it bounces, and tells where the axes stood then") {
     Bench bench({{.bit = 3, .active_level = true, .debounce_us = 2000}});
-    const std::uint64_t t = hal::system_clock().now_ns() - 10'000'000; // no edge has an instant that is to come
-    for (unsigned i = 0; i < 100; ++i) {                               // a step each 10 us, from there on
+    const std::uint64_t t = bench.clock.now_ns() - 10'000'000; // no edge has an instant that is to come
+    for (unsigned i = 0; i < 100; ++i) {                       // a step each 10 us, from there on
         bench.log.add(t + 10'000 * i, 0, true);
     }
     REQUIRE(bench.watch.start());
@@ -115,11 +104,11 @@ TEST_CASE("an input acts since its first edge, however it bounces, and tells whe
 TEST_CASE("an input that trips the e-stop does so at its first edge, debounced or not") {
     Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .trips_estop = true}, {.bit = 1}});
     REQUIRE(bench.watch.start());
-    bench.source.drive(1, true, hal::system_clock().now_ns());
+    bench.source.drive(1, true, bench.clock.now_ns());
     CHECK(bench.next().input == 1);
     CHECK(bench.trips == 0);
-    bench.source.drive(0, true, hal::system_clock().now_ns());
-    CHECK(soon([&] { return bench.trips > 0; }));
+    bench.source.drive(0, true, bench.clock.now_ns());
+    CHECK(bench.soon([&] { return bench.trips > 0; }));
     CHECK_FALSE(bench.watch.active(0)); // that needs the time of debouncing
 }
 
@@ -127,7 +116,7 @@ TEST_CASE("an edge that the system lost is noticed by the level") {
     Bench bench({{.bit = 5, .active_level = true, .trips_estop = true}});
     REQUIRE(bench.watch.start());
     bench.source.drive(5, true, 0, false);
-    CHECK(soon([&] { return bench.trips > 0; }));
+    CHECK(bench.soon([&] { return bench.trips > 0; }));
     CHECK(bench.next().active);
     CHECK(bench.watch.missed() == 1);
 }
@@ -137,8 +126,8 @@ TEST_CASE("a chip that vanishes disables the drives, with the system's reason") 
     REQUIRE(bench.watch.start());
     CHECK(bench.watch.trouble().empty());
     bench.source.vanish();
-    CHECK(soon([&] { return bench.trips > 0; }));
-    CHECK(soon([&] { return bench.watch.trouble() == "No such device"; }));
+    CHECK(bench.soon([&] { return bench.trips > 0; }));
+    CHECK(bench.soon([&] { return bench.watch.trouble() == "No such device"; }));
 }
 
 TEST_CASE("an input that acts from the start is known before anything moves") {

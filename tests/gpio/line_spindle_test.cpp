@@ -4,22 +4,13 @@
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"
 #include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
 
 namespace {
-
-/// Passes only when a test says so.
-class SetClock final : public hal::Clock {
-public:
-    [[nodiscard]] std::uint64_t now_ns() const noexcept override { return ns; }
-    void sleep_until_ns(std::uint64_t /*instant_ns*/) noexcept override {}
-    [[nodiscard]] std::unique_ptr<hal::ClockThread> start(std::function<void()> /*work*/) override { return nullptr; }
-
-    std::uint64_t ns = 1'000'000'000;
-};
 
 std::string machine_with(const std::string& keys) {
     return "[path]\nmax_feed_mm_s = 80\n[lines]\nchip = '/dev/gpiochip0'\n[spindle]\nmax_rpm = 10000\nspin_up_s = 2\n"
@@ -34,7 +25,7 @@ struct Bench {
 
     void pass_ms(int ms) {
         for (int i = 0; i < ms; ++i) {
-            clock.ns += 1'000'000;
+            clock.sleep_us(1000);
             spindle.update();
         }
     }
@@ -46,7 +37,7 @@ struct Bench {
     static constexpr std::uint64_t off = 1; // the line that turns it on is low when it acts
     static constexpr std::uint64_t reverse = 2;
 
-    SetClock clock;
+    VirtualClock clock;
     MachineDescription machine;
     RecordedChips chips;
     LineSpindle spindle;

@@ -31,6 +31,12 @@ public:
     [[nodiscard]] bool says(const std::string& what) {
         return comes([&] { return text.find(what) != std::string::npos; });
     }
+    /// Sends bytes, and waits for what is said to them.
+    [[nodiscard]] bool answers(const std::string& bytes, const std::string& what) {
+        text.clear();
+        send(bytes);
+        return says(what);
+    }
     /// Sends lines, and waits until all is done.
     void go(const std::string& program) {
         text.clear();
@@ -43,7 +49,7 @@ public:
     [[nodiscard]] bool rests() {
         const ControllerState state = controller->state();
         return served->stands() && (state == ControllerState::idle || state == ControllerState::alarm ||
-                                    ((state == ControllerState::hold || state == ControllerState::door)));
+                                    state == ControllerState::hold || state == ControllerState::door);
     }
     /// Begins a long move, and waits until it has full speed.
     void begin_move() {
@@ -52,6 +58,14 @@ public:
         REQUIRE(comes([this] { return mm(0) > 40.0; }));
     }
     [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns()) * 1e-6; }
+    [[nodiscard]] double last_step_ms() { return static_cast<double>(last_step_ns()) * 1e-6; }
+    /// The switch of an axis acts from there on: at 1000 wherever the axis of a low one is.
+    void place_switch(unsigned axis, double at_mm) {
+        switch_mm[axis] = at_mm;
+        carriage();
+    }
+    /// The axes are on the line of begin_move(), but for a count.
+    void check_on_line() { CHECK(std::fabs((mm(1) - 10.0) - 0.5 * (mm(0) - 10.0)) < 0.005); }
     /// What is told of each axis is what was counted.
     void check_place() {
         for (const host::RunTarget::AxisPlace& at : served->places()) {
@@ -79,10 +93,7 @@ public:
     void unlock() {
         send("\x18");
         wait(50);
-        text.clear();
-        send("$X\n");
-        INFO(text);
-        REQUIRE(says("ok"));
+        REQUIRE(answers("$X\n", "ok"));
     }
 };
 

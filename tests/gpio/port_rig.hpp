@@ -92,4 +92,39 @@ struct TargetRig {
     std::unique_ptr<splinefeed::host::GpioTarget> target;
 };
 
+/// A straight run on a target from zero, as Supervision and Motion do it, a millisecond at a time.
+class TargetRun {
+public:
+    TargetRun(TargetRig& rig, const splinefeed::PerAxis<double>& to)
+        : target(*rig.target), clock_(rig.clock), motion_(rig.machine, {0.0, 0.0}, to, 100.0) {
+        REQUIRE(motion_.next(*next_));
+        REQUIRE_FALSE(port.prepare(*next_));
+    }
+    /// With a planner that is blocked nothing is delivered.
+    splinefeed::hal::PortPhase tick(bool delivers = true) {
+        if (!target.holds().empty()) {
+            motion_.hold();
+        }
+        while (delivers && next_ && port.room() > 0 && port.submit(*next_)) {
+            if (!motion_.next(*next_)) {
+                next_.reset();
+                port.complete();
+            }
+        }
+        const splinefeed::hal::PortPhase phase = port.poll().phase;
+        if (phase == splinefeed::hal::PortPhase::running) {
+            clock_.sleep_us(1000);
+        }
+        return phase;
+    }
+
+    splinefeed::host::RunTarget& target;
+    splinefeed::hal::MotionPort& port = target.port();
+
+private:
+    VirtualClock& clock_;
+    splinefeed::host::StraightMotion motion_;
+    std::optional<splinefeed::FeedSegment> next_{std::in_place};
+};
+
 } // namespace splinefeed_test

@@ -33,7 +33,7 @@ TEST_CASE("homing finds its switches from anywhere, and a reset stops it at once
         machine.send("\x18");
         REQUIRE(machine.says("ALARM:6"));
         machine.wait(400);
-        CHECK(static_cast<double>(machine.last_step_ns()) * 1e-6 - asked_ms < 120.0);
+        CHECK(machine.last_step_ms() - asked_ms < 120.0);
         machine.check_still();
         CHECK_FALSE(machine.served->read().known);
         machine.unlock();
@@ -59,8 +59,7 @@ TEST_CASE("a search makes no other axis known, whatever ends it", "[serve]") {
     machine.send("$HX\n");
     if (found) {
         REQUIRE(machine.says("ok"));
-        machine.switch_mm[1] = 1000.0; // y acts now
-        machine.carriage();
+        machine.place_switch(1, 1000.0); // y acts now
         REQUIRE(machine.says("ALARM:1\r"));
     } else {
         machine.wait(400);
@@ -70,9 +69,7 @@ TEST_CASE("a search makes no other axis known, whatever ends it", "[serve]") {
     machine.wait(400);
     CHECK(machine.known() == (found ? told | 1U : told & ~1U));
     SECTION("what the operator unlocks stands where a motion begins") {
-        machine.text.clear();
-        machine.send("$X\n");
-        REQUIRE(machine.says("ok"));
+        REQUIRE(machine.answers("$X\n", "ok"));
         machine.go("G91 G0 Z-1\n");
         CHECK(machine.known() == 7);
         CHECK(machine.counts()[2] == -320);
@@ -87,8 +84,7 @@ TEST_CASE("an axis that no search has found stands where the first motion behind
     CHECK(machine.known() == 7);
     CHECK(machine.counts()[2] == -320);
     CHECK(machine.served->places()[2].mm.value() == -1.0);
-    machine.switch_mm[1] = 1000.0; // y acts: what the lines know is looked at
-    machine.carriage();
+    machine.place_switch(1, 1000.0); // y acts: what the lines know is looked at
     REQUIRE(machine.says("ALARM:1\r"));
     CHECK(machine.known() == 7);
 }
@@ -108,9 +104,7 @@ TEST_CASE("a reset ends a search with one alarm, wherever the axes are, and behi
         CHECK(machine.text.rfind("ALARM") == machine.text.find("ALARM:6\r"));
         CHECK(machine.served->read().alarm == Alarm::none);
         machine.check_still();
-        machine.text.clear();
-        machine.send("$X\n"); // without another reset
-        REQUIRE(machine.says("ok"));
+        REQUIRE(machine.answers("$X\n", "ok")); // without another reset
         machine.go("$H\n");
         CHECK(machine.known() == 7);
         CHECK(machine.mm(0) == Approx(0.0).margin(0.004));

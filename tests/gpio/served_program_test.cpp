@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Programs on a served machine of lines: how they flow, and what they switch.
-#include "served_lines.hpp"
+#include "operated_lines.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST_CASE("spindle, coolant, outputs and an input of a program are lines", "[ser
     text.replace(text.find("[spindle]\n"), 10, "[spindle]\nenable = { line = \"SPINDLE\" }\nspin_up_s = 0.3\n");
     text += "[lines]\nchip = \"/dev/gpiochip1\"\n[coolant.flood]\nline = \"FLOOD\"\n"
             "[[output]]\nnumber = 3\nline = \"CLAMP\"\n[[input]]\nnumber = 2\nline = \"READY\"\n";
-    ServedLines machine(served_map, 7, text);
+    OperatedLines machine(served_map, 7, text);
     const auto rows = [&] {
         return machine.chips.chip.at(0)->rows();
     };
@@ -81,9 +81,7 @@ TEST_CASE("spindle, coolant, outputs and an input of a program are lines", "[ser
     CHECK(rows().back().levels == 0);
     machine.send("M66 P2 L3 Q5\nG1 X40\nG4 P0.1\n");
     machine.text.clear();
-    for (int ms = 0; ms < 1000; ++ms) {
-        machine.tick();
-    }
+    machine.wait(1000);
     CHECK(machine.mm(0) == 30.0);
     CHECK(machine.text.empty());
     machine.chips.inputs.at(0)->now = 1;
@@ -91,12 +89,8 @@ TEST_CASE("spindle, coolant, outputs and an input of a program are lines", "[ser
     CHECK(machine.mm(0) == 40.0);
     machine.send("M8\nM3 S500\nG1 X200\n");
     REQUIRE(until_ok(3));
-    for (int ms = 0; ms < 500; ++ms) {
-        machine.tick();
-    }
+    machine.wait(500);
     machine.press(ServedLines::e_stop, true);
-    for (int ms = 0; ms < 5; ++ms) {
-        machine.tick();
-    }
+    machine.wait(5);
     CHECK(rows().back().levels == 0); // all off
 }

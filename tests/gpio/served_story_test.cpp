@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Random stories of a served machine on lines: whatever people and switches do, behind homing it is where it says.
-#include "served_lines.hpp"
+#include "operated_lines.hpp"
 #include "support/catch.hpp"
 #include "support/random_path.hpp"
 #include "support/rounds.hpp"
@@ -21,12 +21,11 @@ public:
         recover();
         for (int n = 0; n < 12; ++n) {
             act();
-            wait(static_cast<int>(random_.below(400)));
+            machine_.wait(static_cast<int>(random_.below(400)));
         }
         machine_.press(ServedLines::e_stop, false);
         machine_.press(ServedLines::drive_fault, false);
-        machine_.switch_mm[0] = -2.0;
-        machine_.carriage();
+        machine_.place_switch(0, -2.0);
         recover();
         machine_.send("G90 G0 X5 Y7 Z-3\n");
         REQUIRE(rests());
@@ -35,29 +34,16 @@ public:
     }
 
 private:
-    void wait(int ms) {
-        for (; ms > 0; --ms) {
-            machine_.tick();
-        }
-    }
     [[nodiscard]] bool rests() {
-        wait(120);
-        for (int ms = 0; ms < 20'000; ++ms) {
-            const ControllerState state = machine_.controller->state();
-            if (machine_.served->stands() && state != ControllerState::run && state != ControllerState::jog &&
-                state != ControllerState::home) {
-                return true;
-            }
-            machine_.tick();
-        }
-        return false;
+        machine_.wait(120);
+        return machine_.comes([this] { return machine_.rests(); });
     }
     /// Unlocked and homed.
     void recover() {
         machine_.send("\x18");
         REQUIRE(rests());
         machine_.send("\x18");
-        wait(50);
+        machine_.wait(50);
         machine_.send("$X\n");
         machine_.text.clear();
         machine_.send("$H\n");
@@ -92,17 +78,14 @@ private:
         case 10:
             machine_.clock.sleep_us(1000 * static_cast<std::uint64_t>(random_.below(300)));
             break; // the server does nothing
-        case 11:
-            machine_.switch_mm[0] = machine_.switch_mm[0] < 0.0 ? 1000.0 : -2.0;
-            machine_.carriage();
-            break;
+        case 11: machine_.place_switch(0, machine_.switch_mm[0] < 0.0 ? 1000.0 : -2.0); break;
         case 12: machine_.press(ServedLines::drive_fault, random_.below(2) == 0); break;
         case 13: machine_.send("$X\n"); break;
         }
     }
 
     RandomPath random_;
-    ServedLines machine_{served_map, 0};
+    OperatedLines machine_{served_map, 0};
 };
 
 } // namespace

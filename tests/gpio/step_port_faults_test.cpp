@@ -13,6 +13,12 @@ TEST_CASE_METHOD(PlainRig, "a port that was disabled enables nothing, before and
         CHECK(port.start().empty());
         CHECK(lines.rows().empty());
     }
+    SECTION("while the drives settle") {
+        static_cast<void>(port.start());
+        CHECK(lines.enabled());
+        port.disable();
+        clock.sleep_us(1000); // of the 5 ms that they take
+    }
     SECTION("at rest, with the drives on, and started again") {
         static_cast<void>(port.start());
         CHECK(lines.enabled());

@@ -7,7 +7,6 @@
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -31,31 +30,6 @@ StepPortSettings settings(const StepSettings& step = {}) {
             .real_time = {.spin_ns = 0},
             .stall_ns = std::uint64_t{60} * 1'000'000'000};
 }
-
-/// While one lives: how much too late a thread that sleeps for a fifth of a millisecond was woken at most.
-class HostWatch {
-public:
-    HostWatch() : thread_([this] { work(); }) {}
-    HostWatch(const HostWatch&) = delete;
-    HostWatch& operator=(const HostWatch&) = delete;
-    ~HostWatch() {
-        ends_.store(true);
-        thread_.join();
-    }
-    [[nodiscard]] std::uint64_t latest_ns() const { return latest_ns_.load(); }
-
-private:
-    void work() {
-        while (!ends_.load()) {
-            const std::uint64_t due_ns = hal::system_clock().now_ns() + 200'000;
-            latest_ns_.store(std::max(latest_ns_.load(), wait_until_ns(due_ns, 0) - due_ns));
-        }
-    }
-
-    std::atomic<bool> ends_{false};
-    std::atomic<std::uint64_t> latest_ns_{0};
-    std::thread thread_;
-};
 
 /// Axis k: step 2 k and direction 2 k + 1; the second axis's lines are inverted, enable is, too.
 ChipOutputs wired(RecordingWriter& writer) {
@@ -225,30 +199,6 @@ TEST_CASE("a thread that stood still goes on where it was, and catches nothing u
     }
 }
 
-TEST_CASE("disable stops all edges and switches the drives off") {
-    const std::vector<FeedSegment> segments = RandomSegments(5).smooth(axes, 300, 8000, 4000.0);
-    RecordingWriter writer;
-    StepPort port({wired(writer)}, settings());
-    INFO(port.start());
-    const HostWatch host;
-    std::uint64_t disable_ns = 0;
-    CHECK(run(port, segments, [&](std::size_t i) {
-              if (i == 150) {
-                  disable_ns = hal::system_clock().now_ns();
-                  port.disable();
-              }
-          }) == PortPhase::fault);
-    const auto rows = writer.rows();
-    CHECK((rows.back().levels & enable_mask) != 0);
-    CHECK((rows.back().levels & 0b101U) == 0b100U); // steps idle: low, and high where inverted
-    CHECK(rows.back().at_ns > disable_ns);
-    // The last call switches off: within the slice, and what a wake-up takes on this host.
-    CHECK(rows.back().at_ns <= disable_ns + StepPort::slice_ns + 2 * host.latest_ns() + 100'000);
-    CHECK((rows[rows.size() - 2].levels & enable_mask) == 0);
-    CHECK(port.was_disabled());
-    CHECK_FALSE(port.submit(segments[0]));
-}
-
 TEST_CASE("a chip that does not obey any more is a fault with the system's reason") {
     const std::vector<FeedSegment> segments = RandomSegments(6).smooth(axes, 100, 8000, 4000.0);
     RecordingWriter writer;
@@ -288,27 +238,6 @@ TEST_CASE("one motion after another: counts go on, and so do lines of which each
     }
 }
 
-TEST_CASE("the drives have the time to switch on that they were given, and disable does not wait for it") {
-    const std::vector<FeedSegment> segments = RandomSegments(10).smooth(axes, 60, 8000, 3000.0);
-    RecordingWriter writer;
-    StepPortSettings slow = settings();
-    slow.settle_ms = 200;
-    {
-        StepPort port({wired(writer)}, slow);
-        INFO(port.start());
-        REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
-        CHECK(writer.rows()[1].at_ns >= writer.rows()[0].at_ns + 200'000'000);
-    }
-    slow.settle_ms = 60'000;
-    StepPort port({wired(writer)}, slow);
-    INFO(port.start());
-    port.disable();
-    while (port.poll().phase != PortPhase::fault) {
-        sleep_ms(1);
-    }
-    CHECK((writer.rows().back().levels & enable_mask) != 0); // off
-}
-
 TEST_CASE("nothing is allocated while a motion runs") {
     class Silent final : public LineWriter {
     public:
@@ -327,12 +256,4 @@ TEST_CASE("nothing is allocated while a motion runs") {
     CHECK(end == PortPhase::idle);
     CHECK(port.report().edges > 100);
     CHECK(after == before);
-}
-
-TEST_CASE("nothing to move is a motion that is over") {
-    RecordingWriter writer;
-    StepPort port({wired(writer)}, settings());
-    INFO(port.start());
-    CHECK(run(port, {}, [](std::size_t) {}) == PortPhase::idle);
-    CHECK(writer.rows().size() == 1);
 }

@@ -131,8 +131,6 @@ TEST_CASE("Stop: what was confirmed and moves again is no longer confirmed") {
     CHECK(one.at(1200, moves(1190, StopRequest::hold, 5)).request == StopRequest::quick_stop);
 }
 
-// An axis of random manners, judged by what it really did: never confirmed before it stood for the settling time, for
-// good; and always an answer within the sum of the bounds.
 TEST_CASE("Stop: an axis that brakes gets the longer time as long as it is heard") {
     StopTimes slow = times;
     slow.braking_us = 20'000;
@@ -151,6 +149,8 @@ TEST_CASE("Stop: an axis that brakes gets the longer time as long as it is heard
     CHECK(stop.report(0).request == StopRequest::quick_stop);
 }
 
+// An axis of random manners, judged by what it really did: never confirmed before it stood for the settling time, for
+// good; and always an answer within the sum of the bounds.
 TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and there is an answer in time") {
     const int runs = rounds(2000);
     int confirmed = 0;

@@ -15,12 +15,6 @@ namespace {
 constexpr LinkTiming brief{.answer_us = 50'000};
 constexpr unsigned us_per_ms = 1000;
 
-const Bytes two_registers{1, 3, 4, 0x12, 0x34, 0x56, 0x78};
-
-ScriptedPeer::Reply rtu(const Bytes& bytes) {
-    return {.bytes = with_crc(bytes)};
-}
-
 Bytes cut(Bytes bytes, std::size_t size) {
     bytes.resize(size);
     return bytes;
@@ -34,13 +28,11 @@ TEST_CASE("Link: an exchange has a bound, whatever trickles in") {
         for (const bool drips : {false, true}) {
             const bool serial = wire == ScriptedPeer::Wire::pty;
             CAPTURE(serial, drips);
-            ScriptedPeer peer(wire, [&](const Bytes& request) {
+            auto&& [peer, link] = ScriptedLink(wire, brief, [&](const Bytes& request) {
                 const Bytes whole = serial ? with_crc(two_registers) : tcp_reply(request, two_registers);
                 return ScriptedPeer::Reply{.bytes = drips ? whole : cut(whole, whole.size() - 1),
                                            .drip_us = drips ? 100 * us_per_ms : 0};
             });
-            ModbusLink link(peer.address(), brief);
-            REQUIRE(link.connect());
             std::array<std::uint16_t, 2> in{7, 8};
             const LinkAnswer answer = link.read(1, 0, in);
             CHECK(answer.fault == LinkFault::timeout);
@@ -52,12 +44,10 @@ TEST_CASE("Link: an exchange has a bound, whatever trickles in") {
 
 TEST_CASE("Link: a connection that is flooded is closed within two exchanges, and a new one answers") {
     std::atomic<bool> floods{true};
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, brief, [&](const Bytes& request) {
         return floods ? ScriptedPeer::Reply{.bytes = Bytes(4096, 0x55), .flood = true}
                       : ScriptedPeer::Reply{.bytes = tcp_reply(request, two_registers)};
     });
-    ModbusLink link(peer.address(), brief);
-    REQUIRE(link.connect());
     std::array<std::uint16_t, 2> in{};
     const std::uint64_t most_us = longest_exchange_us(link.address(), brief, 0, 2);
     for (int i = 0; i < 2; ++i) {
@@ -77,15 +67,13 @@ TEST_CASE("Link: a late answer is not taken for that of the next request") {
     for (const unsigned pause_ms : {0U, 150U}) {
         CAPTURE(pause_ms);
         std::atomic<int> requests{0};
-        ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+        auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, brief, [&](const Bytes& request) {
             const bool first = ++requests == 1;
             if (first) {
                 usleep(100 * us_per_ms);
             }
             return ScriptedPeer::Reply{tcp_reply(request, first ? Bytes{1, 3, 4, 9, 9, 9, 9} : two_registers)};
         });
-        ModbusLink link(peer.address(), brief);
-        REQUIRE(link.connect());
         std::array<std::uint16_t, 2> in{};
         CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
         usleep(pause_ms * us_per_ms);
@@ -105,13 +93,11 @@ TEST_CASE("Link: a serial line that is an answer behind is brought back") {
     // Each answer says to which request it belongs; the first comes 100 ms late, when the second is waited for,
     // the others after 20 ms.
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, brief, [&](const Bytes&) {
         const int number = ++requests;
         usleep((number == 1 ? 100 : 20) * us_per_ms);
-        return rtu({1, 3, 4, 0, static_cast<std::uint8_t>(number), 0, 0});
+        return ScriptedPeer::rtu({1, 3, 4, 0, static_cast<std::uint8_t>(number), 0, 0});
     });
-    ModbusLink link(peer.address(), brief);
-    REQUIRE(link.connect());
     std::array<std::uint16_t, 2> in{};
     CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
     for (int asked = 2; asked < 20; ++asked) {
@@ -133,7 +119,7 @@ TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, 
     std::atomic<int> asked{0};
     std::atomic<std::uint64_t> sent_us{0}; // the request, or somewhat later than this
     std::atomic<bool> too_late{false};     // this host is so busy that the peer was
-    ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, brief, [&](const Bytes&) {
         const auto number = static_cast<std::uint8_t>(++asked);
         if (random() % 3 == 0) {
             usleep((50U + 1U + static_cast<unsigned>(random() % 250)) * us_per_ms);
@@ -141,8 +127,6 @@ TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, 
         too_late = too_late || splinefeed::hal::system_clock().now_us() > sent_us + 345 * us_per_ms;
         return ScriptedPeer::Reply{.bytes = with_crc({1, 3, 4, 0, number, 0, 0})};
     });
-    ModbusLink link(peer.address(), brief);
-    REQUIRE(link.connect());
     int good = 0;
     for (int i = 0; i < readings && !too_late; ++i) {
         std::array<std::uint16_t, 2> in{};
@@ -158,13 +142,11 @@ TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, 
 TEST_CASE("Link: on a serial line a late confirmation is not that of another writing of its kind") {
     // The first is confirmed 100 ms late, the second never comes to the drive.
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, brief, [&](const Bytes& request) {
         const int number = ++requests;
         usleep(number == 1 ? 100 * us_per_ms : 0);
         return number == 2 ? ScriptedPeer::Reply{} : ScriptedPeer::Reply{.bytes = request};
     });
-    ModbusLink link(peer.address(), brief);
-    REQUIRE(link.connect());
     CHECK(link.write_one(1, 7, 5).fault == LinkFault::timeout);
     CHECK(link.owes_answer(1));
     CHECK_FALSE(link.owes_answer(2));
@@ -174,11 +156,9 @@ TEST_CASE("Link: on a serial line a late confirmation is not that of another wri
 
 TEST_CASE("Link: a unit owes no answer to a reading any more once it has answered a writing that came later") {
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, brief, [&](const Bytes& request) {
         return ++requests == 1 ? ScriptedPeer::Reply{} : ScriptedPeer::Reply{.bytes = request};
     });
-    ModbusLink link(peer.address(), brief);
-    REQUIRE(link.connect());
     std::array<std::uint16_t, 2> in{};
     const LinkAnswer missed = link.read(1, 0, in);
     CHECK(missed.fault == LinkFault::timeout);

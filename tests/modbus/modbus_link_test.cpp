@@ -15,13 +15,6 @@ namespace {
 constexpr LinkTiming patient{.answer_us = 1'000'000};
 constexpr LinkTiming brief{.answer_us = 50'000};
 
-// Unit 1 has the registers 0x1234 and 0x5678 at any address.
-const Bytes two_registers{1, 3, 4, 0x12, 0x34, 0x56, 0x78};
-
-ScriptedPeer::Reply rtu(const Bytes& bytes) {
-    return {.bytes = with_crc(bytes)};
-}
-
 /// A server made of libmodbus with 64 holding registers, 8 coils and 8 discrete inputs from address 0 on.
 class Server {
 public:
@@ -68,9 +61,7 @@ private:
 };
 
 LinkFault fault_of(ScriptedPeer::Wire wire, const ScriptedPeer::Script& script, const LinkTiming& timing) {
-    ScriptedPeer peer(wire, script);
-    ModbusLink link(peer.address(), timing);
-    REQUIRE(link.connect());
+    auto&& [peer, link] = ScriptedLink(wire, timing, script);
     std::array<std::uint16_t, 2> in{7, 8};
     const LinkAnswer answer = link.read(1, 0, in);
     CHECK(in == std::array<std::uint16_t, 2>{7, 8}); // a fault changes nothing
@@ -146,11 +137,9 @@ TEST_CASE("Link: on a serial line each fault has its name") {
 
 TEST_CASE("Link: the code of an exception on a serial line") {
     for (const int code : {1, 2, 3, 4, 6, 11}) {
-        ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
-            return rtu({1, 0x83, static_cast<std::uint8_t>(code)});
+        auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, patient, [&](const Bytes&) {
+            return ScriptedPeer::rtu({1, 0x83, static_cast<std::uint8_t>(code)});
         });
-        ModbusLink link(peer.address(), patient);
-        REQUIRE(link.connect());
         std::array<std::uint16_t, 2> in{};
         const LinkAnswer answer = link.read(1, 0, in);
         CHECK(answer.fault == LinkFault::exception);
@@ -225,12 +214,10 @@ TEST_CASE("Link: each reason of the system has its own advice") {
 
 TEST_CASE("Link: it goes on after a connection that broke") {
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, patient, [&](const Bytes& request) {
         return ++requests == 1 ? ScriptedPeer::Reply{.bytes = {}, .hang_up = true}
                                : ScriptedPeer::Reply{tcp_reply(request, two_registers)};
     });
-    ModbusLink link(peer.address(), patient);
-    REQUIRE(link.connect());
     std::array<std::uint16_t, 2> in{};
     CHECK(link.read(1, 0, in).fault == LinkFault::disconnected);
     CHECK_FALSE(link.connected());
@@ -241,9 +228,9 @@ TEST_CASE("Link: it goes on after a connection that broke") {
 
 TEST_CASE("Link: the silence between two frames of a serial line is kept") {
     for (const std::uint32_t before_us : {0U, 4000U}) {
-        ScriptedPeer peer(ScriptedPeer::Wire::pty, [](const Bytes&) { return rtu(two_registers); });
-        ModbusLink link(peer.address(), {.answer_us = patient.answer_us, .before_us = before_us});
-        REQUIRE(link.connect());
+        auto&& [peer, link] =
+            ScriptedLink(ScriptedPeer::Wire::pty, {.answer_us = patient.answer_us, .before_us = before_us},
+                         [](const Bytes&) { return ScriptedPeer::rtu(two_registers); });
         constexpr std::size_t exchanges = 10;
         std::uint64_t last_us = 0;
         for (std::size_t i = 0; i < exchanges; ++i) {
@@ -268,10 +255,9 @@ TEST_CASE("Link: the silence between two frames of a serial line is kept") {
 TEST_CASE("Link: a serial line that failed three times in a row is left alone for 300 ms") {
     constexpr int silent = 3;
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::pty,
-                      [&](const Bytes&) { return ++requests <= silent ? ScriptedPeer::Reply{} : rtu(two_registers); });
-    ModbusLink link(peer.address(), {.answer_us = 200'000});
-    REQUIRE(link.connect());
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, {.answer_us = 200'000}, [&](const Bytes&) {
+        return ++requests <= silent ? ScriptedPeer::Reply{} : ScriptedPeer::rtu(two_registers);
+    });
     std::array<std::uint16_t, 2> in{};
     LinkAnswer failed;
     for (int i = 0; i < silent; ++i) {
@@ -297,12 +283,10 @@ TEST_CASE("Link: every fault says what to look at") {
 
 TEST_CASE("Link: a unit number that no frame can carry is refused before anything is sent") {
     std::atomic<int> requests{0};
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes&) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, patient, [&](const Bytes&) {
         ++requests;
         return ScriptedPeer::Reply{};
     });
-    ModbusLink link(peer.address(), patient);
-    REQUIRE(link.connect());
     std::array<std::uint16_t, 2> in{7, 8};
     for (const int unit : {-1, 0, 248, 250, 254, 256}) {
         CHECK(link.read(unit, 0, in).fault == LinkFault::bad_unit);
@@ -332,9 +316,8 @@ TEST_CASE("Link: after one time-out more than its retries a tcp connection is gi
     const auto script = [&](const Bytes& request) {
         return silent ? ScriptedPeer::Reply{} : ScriptedPeer::Reply{tcp_reply(request, two_registers)};
     };
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, script);
-    ModbusLink link(peer.address(), {.answer_us = 20'000, .before_us = 0, .retries = 2});
-    REQUIRE(link.connect());
+    auto&& [peer, link] =
+        ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 20'000, .before_us = 0, .retries = 2}, script);
     std::array<std::uint16_t, 2> in{};
     for (int i = 0; i < 3; ++i) {
         CHECK(link.connected());
@@ -355,9 +338,8 @@ TEST_CASE("Link: after one time-out more than its retries a tcp connection is gi
 }
 
 TEST_CASE("Link: a serial line is not opened anew for time-outs: it has no connection that could be lost") {
-    ScriptedPeer peer(ScriptedPeer::Wire::pty, [](const Bytes&) { return ScriptedPeer::Reply{}; });
-    ModbusLink link(peer.address(), {.answer_us = 10'000, .before_us = 0, .retries = 0});
-    REQUIRE(link.connect());
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::pty, {.answer_us = 10'000, .before_us = 0, .retries = 0},
+                                       [](const Bytes&) { return ScriptedPeer::Reply{}; });
     std::array<std::uint16_t, 2> in{};
     for (int i = 0; i < 3; ++i) {
         CHECK(link.read(1, 0, in).fault == LinkFault::timeout);

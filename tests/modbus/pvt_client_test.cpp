@@ -52,10 +52,9 @@ ScriptedPeer::Reply answer_of(PvtDrive& drive, const Bytes& request) {
 TEST_CASE("Client: the clock of a probe behind one that failed is not taken: it may be a late answer's") {
     PvtDrive drive(PvtDriveParameters{});
     std::atomic<bool> silent{false};
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 300'000}, [&](const Bytes& request) {
         return silent.exchange(false) ? ScriptedPeer::Reply{} : answer_of(drive, request);
     });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
     PvtClient client(link, 1);
     REQUIRE(client.open(1) == DriveProblem::none);
     CHECK_FALSE(client.report().clock.known());
@@ -76,8 +75,8 @@ TEST_CASE("Client: what nobody asked for stays in the drive as it was") {
         REQUIRE(drive.read(pvt::configuration_address, registers) == ModbusException::none);
         return decode_configuration(registers);
     };
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) { return answer_of(drive, request); });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 300'000},
+                                       [&](const Bytes& request) { return answer_of(drive, request); });
     PvtClient client(link, 1);
     REQUIRE(client.open(1) == DriveProblem::none);
     REQUIRE(client.configure({.stop_reserve_ms = 100}) == DriveProblem::none);
@@ -96,7 +95,7 @@ TEST_CASE("Client: no bit that a frame on TCP changes on its way opens a session
     unsigned spoiled_bit = 0; // of the first reading of it, or of the first writing
     bool spoils_write = false;
     bool spoils = false;
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    ScriptedLink on(ScriptedPeer::Wire::tcp, {.answer_us = 300'000}, [&](const Bytes& request) {
         constexpr std::size_t first_written = 13;
         constexpr std::size_t first_read = 9;
         const bool hit =
@@ -116,10 +115,9 @@ TEST_CASE("Client: no bit that a frame on TCP changes on its way opens a session
         }
         return reply;
     });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
     const PvtSettings wanted{.stop_reserve_ms = 150, .watchdog_ms = 1000, .following_window = 500};
     const auto opens = [&] {
-        PvtClient client(link, 1);
+        PvtClient client(on.link, 1);
         REQUIRE(client.open(1) == DriveProblem::none);
         REQUIRE(client.configure(wanted) == DriveProblem::none);
         std::array<std::uint16_t, pvt::configuration_registers> registers{};
@@ -152,14 +150,13 @@ TEST_CASE("Client: no bit that a frame on TCP changes on its way opens a session
 TEST_CASE("Client: a line that spoils every other reading for a while costs no run") {
     PvtDrive drive(PvtDriveParameters{});
     int readings = 0;
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 300'000}, [&](const Bytes& request) {
         ScriptedPeer::Reply reply = answer_of(drive, request);
         if (request[7] == 3 && ++readings <= 18) {
             reply.bytes.back() ^= static_cast<std::uint8_t>(readings % 2);
         }
         return reply;
     });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
     PvtClient client(link, 1);
     CHECK(client.open(1) == DriveProblem::none);
     CHECK(readings >= 18);
@@ -170,7 +167,7 @@ TEST_CASE("Client: registers that are never twice the same, and a configuration 
     bool changes = false;
     bool forgets = false;
     std::uint8_t count = 0;
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 300'000}, [&](const Bytes& request) {
         Bytes arrived = request;
         if (forgets && request[7] == 16) {
             arrived[14] ^= 1U;
@@ -181,7 +178,6 @@ TEST_CASE("Client: registers that are never twice the same, and a configuration 
         }
         return reply;
     });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
     PvtClient client(link, 1);
     REQUIRE(client.open(1) == DriveProblem::none);
     forgets = true;
@@ -193,8 +189,8 @@ TEST_CASE("Client: registers that are never twice the same, and a configuration 
 
 TEST_CASE("Client: a drive without a session refuses what only asks for its status, for as long as it is asked") {
     PvtDrive drive(PvtDriveParameters{});
-    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) { return answer_of(drive, request); });
-    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    auto&& [peer, link] = ScriptedLink(ScriptedPeer::Wire::tcp, {.answer_us = 300'000},
+                                       [&](const Bytes& request) { return answer_of(drive, request); });
     PvtClient client(link, 1);
     REQUIRE(client.open(1) == DriveProblem::none);
     for (int asked = 0; asked < 30;) { // more often than other refusals are taken before they are a problem

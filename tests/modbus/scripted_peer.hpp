@@ -51,6 +51,9 @@ inline Bytes tcp_reply(const Bytes& request, const Bytes& body) {
     return out;
 }
 
+/// An answer of unit 1: the registers 0x1234 and 0x5678 at any address.
+inline const Bytes two_registers{1, 3, 4, 0x12, 0x34, 0x56, 0x78};
+
 /// Takes requests in a thread, one after the other (on a serial line those of eight bytes alone), and sends what the
 /// script makes of each.
 class ScriptedPeer {
@@ -64,6 +67,8 @@ public:
         bool flood = false;
     };
     using Script = std::function<Reply(const Bytes& request)>;
+    /// On a serial line.
+    static Reply rtu(const Bytes& bytes) { return {.bytes = with_crc(bytes)}; }
     enum class Wire { tcp, pty };
 
     ScriptedPeer(Wire wire, Script script) : script_(std::move(script)), serial_(wire == Wire::pty) {
@@ -208,6 +213,19 @@ private:
     std::vector<std::uint64_t> arrived_us_;
     std::vector<std::uint64_t> replied_us_;
     std::thread thread_;
+};
+
+/// A link that is connected to a peer.
+struct ScriptedLink {
+    ScriptedLink(ScriptedPeer::Wire wire, const splinefeed::hal::modbus::LinkTiming& timing,
+                 ScriptedPeer::Script script)
+        : peer(wire, std::move(script)), link(peer.address(), timing) {
+        if (!link.connect()) {
+            throw std::runtime_error(link.error());
+        }
+    }
+    ScriptedPeer peer;
+    splinefeed::hal::modbus::ModbusLink link;
 };
 
 } // namespace splinefeed_test
