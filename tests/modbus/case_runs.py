@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests that consist of cases, each a function of the tool and a folder of its own that returns the problems it found."""
+import functools
 import tempfile
 
 
@@ -12,16 +13,23 @@ def pymodbus_missing():
     return ""
 
 
-def run_cases(tool, cases, names):
-    """The exit status. names: of the cases to be run; none: all."""
+def by_profile(run, profiles):
+    """A case of run(tool, folder, profile) for each of them, by its name; "" is splinefeed-pvt."""
+    return {profile or "splinefeed-pvt": functools.partial(run, profile=profile) for profile in profiles}
+
+
+def run_cases(tool, cases, names=()):
+    """The exit status. cases: functions, or such by their names; names: of the cases to be run; none: all."""
     problems = []
-    for case in cases:
-        if names and case.__name__ not in names:
+    if not isinstance(cases, dict):
+        cases = {case.__name__: case for case in cases}
+    for name, case in cases.items():
+        if names and name not in names:
             continue
         with tempfile.TemporaryDirectory(prefix="splinefeed-case-") as folder:
             found = case(tool, folder)
-        print(f"{case.__name__}: {len(found) or 'no'} problems", flush=True)
-        problems += [f"{case.__name__}: {problem}" for problem in found]
+        print(f"{name}: {len(found) or 'no'} problems", flush=True)
+        problems += [f"{name}: {problem}" for problem in found]
     for problem in problems:
         print(problem)
     return 1 if problems else 0

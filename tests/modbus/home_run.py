@@ -7,8 +7,8 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 
+from case_runs import by_profile, run_cases
 from drive_processes import Drive, machine_text
 
 STEPS = 320
@@ -49,14 +49,7 @@ def run(tool, folder, profile):
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    problems = []
-    for profile in ("", "cia402-index", "cia402-kinco", "leadshine-pr", "oriental-az"):
-        with tempfile.TemporaryDirectory(prefix="splinefeed-home-") as folder:
-            problems += [f"{profile or 'splinefeed-pvt'}: {problem}" for problem in run(tool, folder, profile)]
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return run_cases(os.path.abspath(sys.argv[1]), by_profile(run, ("", "cia402-index", "cia402-kinco", "leadshine-pr", "oriental-az")))
 
 
 if __name__ == "__main__":

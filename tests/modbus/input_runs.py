@@ -9,16 +9,12 @@ input_runs.py TOOL [CASE...]
 Exit status 77: skipped, with the reason (no pymodbus)."""
 import os
 import signal
-import subprocess
 import sys
-import threading
 import time
 
 from case_runs import pymodbus_missing, run_cases
-from drive_processes import Drive
-from real_time import HostWatch
+from peer_runs import Peer, PeerRun
 
-STEPS = 320
 WAITS_MM = 20.0  # where the first M66 is
 FLOOD, LAMP, CLAMP = 0, 1, 2  # coils; the clamp is safe when it is on
 PART, DOOR = 2, 3  # inputs of the module, P of M66, too
@@ -66,22 +62,11 @@ number = 3
 module = "io"
 input = 3
 """
-AXIS = """[[axis]]
-name = "{name}"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-drive = "{drive}&axis={k}"
-"""
-
-
-class Module:
+class Module(Peer):
     def __init__(self, folder):
         self.record, self.inputs = os.path.join(folder, "coils.csv"), os.path.join(folder, "inputs")
-        server = os.path.join(os.path.dirname(os.path.abspath(__file__)), "module_server.py")
-        self.process = subprocess.Popen([sys.executable, server, "--inputs", self.inputs, "--record", self.record],
-                                        stdout=subprocess.PIPE, text=True)
-        self.address = "modbus-" + self.process.stdout.readline().split("listening on ")[1].split(",")[0] + "?unit=1"
+        super().__init__("module_server.py", "--inputs", self.inputs, "--record", self.record)
+        self.address += "?unit=1"
 
     def turn(self, *on):
         """These inputs are on, and no others. Written aside: it is read at any time."""
@@ -99,50 +84,25 @@ class Module:
         return rows[-1][1:4] if rows else []
 
 
-class Run:
+class Run(PeerRun):
     """One run of the program. wait: what is done while it waits for its first input, a function of the run."""
 
     def __init__(self, tool, folder, wait=None, program=PROGRAM, clamp=CLAMP):
-        self.module = Module(folder)
-        self.drive = Drive(tool, folder, 0, 2)
-        self.times = []
-        with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-            file.write(MACHINE.format(module=self.module.address, clamp=clamp))
-            for k, name in enumerate("xy"):
-                file.write(AXIS.format(name=name, k=k, drive=self.drive.tcp_address()))
-        with open(os.path.join(folder, "part.ngc"), "w", encoding="ascii") as file:
-            file.write(program)
-        self.process = subprocess.Popen([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus"], cwd=folder,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if wait:
-            threading.Thread(target=self.while_it_waits, args=[wait], daemon=True).start()
-        with HostWatch() as self.host:
-            self.output, self.errors = self.process.communicate(timeout=100)
-        self.ended = time.monotonic()
-        time.sleep(0.2)
-        self.coils = self.module.coils()
-        self.module.process.kill()
-        self.module.process.wait()
-        self.drive.stop()
-        begin = self.drive.start_s()
-        self.axes = [[begin + row[0], row[1] / STEPS, row[2] / STEPS] for row in self.drive.shaft_rows()]
+        module = Module(folder)
+        super().__init__(tool, folder, module, MACHINE.format(module=module.address, clamp=clamp), program, wait)
+        self.coils = module.coils()
 
-    def while_it_waits(self, what):
+    def due(self):
         """The lamp is on at x = 10 mm: a second later the machine stands."""
-        while self.module.coils()[1:2] != [1.0]:
+        while self.peer.coils()[1:2] != [1.0]:
             time.sleep(0.02)
         time.sleep(1.0)
-        what(self)
 
     def turn(self, *on):
         self.times.append(time.monotonic())
-        self.module.turn(*on)
+        self.peer.turn(*on)
 
     # What is wrong
-
-    def expect(self, status, *texts):
-        problems = [] if self.process.returncode == status else [f"exit status {self.process.returncode}: {self.errors}"]
-        return problems + [f"it does not say {text!r}: {self.errors}" for text in texts if text not in self.errors]
 
     def safe_at_end(self):
         return [] if self.coils == [0.0, 0.0, 1.0] else [f"in the end the coils are {self.coils}"]
@@ -172,7 +132,7 @@ def whole(tool, folder):
     problems = run.expect(0) + run.safe_at_end() + run.ends_at(50, -5) + run.waits_until(run.times[0])
     if len(run.times) < 3 or run.ended < run.times[-1]:
         problems.append("it did not wait for the last input")
-    lamp = [row[0] for row in run.module.rows() if row[2]]
+    lamp = [row[0] for row in run.peer.rows() if row[2]]
     if not lamp or not any(abs(row[1] - 10) < 1.5 for row in run.axes if abs(row[0] - lamp[0]) < 0.002):
         problems.append("the lamp was not switched at x = 10 mm")
     return problems
@@ -183,14 +143,14 @@ def held(tool, folder):
     def hold(run):
         run.process.send_signal(signal.SIGUSR1)
         time.sleep(0.3)
-        run.module.turn(PART)
+        run.peer.turn(PART)
         time.sleep(1.0)
         run.turn(PART)
         run.process.send_signal(signal.SIGUSR2)
         time.sleep(3.5)
-        run.module.turn(PART, DOOR)
+        run.peer.turn(PART, DOOR)
         time.sleep(1.0)
-        run.module.turn()
+        run.peer.turn()
     run = Run(tool, folder, hold)
     return run.expect(0) + run.safe_at_end() + run.ends_at(50, -5) + run.waits_until(run.times[0])
 
@@ -204,17 +164,13 @@ def prompt(run):
 
 
 def interrupted(tool, folder):
-    def stop(run):
-        run.times.append(time.monotonic())
-        run.process.send_signal(signal.SIGINT)
-    run = Run(tool, folder, stop)
+    run = Run(tool, folder, lambda run: run.tell(signal.SIGINT))
     return run.expect(1, "all drives were held on the path") + run.safe_at_end() + run.ends_at(WAITS_MM, 0) + prompt(run)
 
 
 def twice(tool, folder):
     def stop(run):
-        run.times.append(time.monotonic())
-        run.process.send_signal(signal.SIGTERM)
+        run.tell(signal.SIGTERM)
         time.sleep(0.02)
         run.process.send_signal(signal.SIGTERM)
     run = Run(tool, folder, stop)
@@ -223,16 +179,14 @@ def twice(tool, folder):
 
 def lost(tool, folder):
     """The module is gone while the program waits for it."""
-    run = Run(tool, folder, lambda run: run.module.process.kill())
+    run = Run(tool, folder, lambda run: run.peer.process.kill())
     return (run.expect(1, "its module does not answer", "all drives were held on the path", "did not confirm its last level") +
             run.ends_at(WAITS_MM, 0))
 
 
 def cut(tool, folder):
     """The module is gone while the machine moves: a feed hold."""
-    def kill(run):
-        run.module.process.kill()
-    run = Run(tool, folder, kill, "G21 G90 G61\nM62 P1\nG1 X300 F1200\nM63 P1\nM30\n")
+    run = Run(tool, folder, lambda run: run.peer.process.kill(), "G21 G90 G61\nM62 P1\nG1 X300 F1200\nM63 P1\nM30\n")
     problems = run.expect(1, "its module does not answer", "all drives were held on the path")
     return problems + ([] if 20 < run.axes[-1][1] < 100 else [f"it ends at {run.axes[-1]}"])
 
@@ -254,9 +208,8 @@ def missing_coil(tool, folder):
 
 def endless(tool, folder):
     """A program without an end, until an input says so: what is read before the run does not hang. It has no move behind its stops."""
-    def end(run):
-        run.turn(PART)
-    run = Run(tool, folder, end, "M62 P1\nM66 P2 L0\nO1 while [#5399 EQ 0]\nM66 P2 L0\nO1 endwhile\nM63 P1\nM66 P2 L4 Q0.2\nM66 P3 L4 Q1\n")
+    run = Run(tool, folder, lambda run: run.turn(PART),
+              "M62 P1\nM66 P2 L0\nO1 while [#5399 EQ 0]\nM66 P2 L0\nO1 endwhile\nM63 P1\nM66 P2 L4 Q0.2\nM66 P3 L4 Q1\n")
     return run.expect(0) + run.safe_at_end() + run.did_not_move()
 
 

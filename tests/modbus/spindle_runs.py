@@ -10,13 +10,12 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 
 from case_runs import pymodbus_missing, run_cases
 from drive_processes import Drive
+from peer_runs import RUN, Peer, PeerRun, write_machine
 
-STEPS = 320
 SLOW_HZ, FAST_HZ = 200.0, 300.0  # S12000 and S18000 at 60 rpm a Hz
 BEGIN_MM, CHANGE_MM, END_MM = 10.0, 40.0, 60.0
 PROGRAM = """G21 G90 G61
@@ -37,22 +36,10 @@ max_rpm = 24000
 at_speed_timeout_s = {timeout}
 vfd = "{vfd}?profile=vfd-delta-ms300"
 """
-AXIS = """[[axis]]
-name = "{name}"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-drive = "{drive}&axis={k}"
-"""
-
-
-class Vfd:
+class Vfd(Peer):
     def __init__(self, folder, ramp_hz_s):
         self.trace = os.path.join(folder, "vfd.csv")
-        server = os.path.join(os.path.dirname(os.path.abspath(__file__)), "vfd_server.py")
-        self.process = subprocess.Popen([sys.executable, server, "--ramp", str(ramp_hz_s), "--record", self.trace],
-                                        stdout=subprocess.PIPE, text=True)
-        self.address = "modbus-" + self.process.stdout.readline().split("listening on ")[1].split(",")[0]
+        super().__init__("vfd_server.py", "--ramp", str(ramp_hz_s), "--record", self.trace)
 
     def rows(self):
         """[instant, output in Hz, direction it was told]"""
@@ -60,46 +47,22 @@ class Vfd:
             return [[float(x) for x in row.split(",")] for row in file if row.count(",") == 2 and row.endswith("\n")]
 
 
-class Run:
+class Run(PeerRun):
     """One run of the program. cut: what is done to it on the first part of the cut, a function of the run."""
 
     def __init__(self, tool, folder, cut=None, ramp_hz_s=400.0, timeout_s=10.0, faults=""):
-        self.vfd = Vfd(folder, ramp_hz_s)
-        self.drive = Drive(tool, folder, 0, 2, faults=faults)
-        with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-            file.write(MACHINE.format(vfd=self.vfd.address, timeout=timeout_s))
-            for k, name in enumerate("xy"):
-                file.write(AXIS.format(name=name, k=k, drive=self.drive.tcp_address()))
-        with open(os.path.join(folder, "part.ngc"), "w", encoding="ascii") as file:
-            file.write(PROGRAM)
-        self.process = subprocess.Popen([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus"], cwd=folder,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if cut:
-            threading.Thread(target=self.in_the_cut, args=[cut], daemon=True).start()
-        self.output, self.errors = self.process.communicate(timeout=100)
-        time.sleep(0.3)
-        self.spindle = self.vfd.rows()
-        self.vfd.process.kill()
-        self.vfd.process.wait()
-        self.drive.stop()
-        begin = self.drive.start_s()
-        self.axes = [[begin + row[0], row[1] / STEPS, row[2] / STEPS] for row in self.drive.shaft_rows()]
+        vfd = Vfd(folder, ramp_hz_s)
+        self.head = MACHINE.format(vfd=vfd.address, timeout=timeout_s)
+        super().__init__(tool, folder, vfd, self.head, PROGRAM, cut, faults)
+        self.spindle = vfd.rows()
 
-    def in_the_cut(self, what):
+    def due(self):
         """What the drives have to execute while the spindle comes to its speed takes less than half a second."""
-        while not any(row[1] > 0.99 * SLOW_HZ for row in self.vfd.rows()[-1:]):
+        while not any(row[1] > 0.99 * SLOW_HZ for row in self.peer.rows()[-1:]):
             time.sleep(0.02)
         time.sleep(1.2)
-        what(self)
-
-    def tell(self, what):
-        self.process.send_signal(what)
 
     # What is wrong
-
-    def expect(self, status, *texts):
-        problems = [] if self.process.returncode == status else [f"exit status {self.process.returncode}: {self.errors}"]
-        return problems + [f"it does not say {text!r}: {self.errors}" for text in texts if text not in self.errors]
 
     def cuts_too_early(self):
         """The axes move where the program cuts, and the spindle has not the speed of that place."""
@@ -181,7 +144,7 @@ def drive_fault(tool, folder):
 
 def lost(tool, folder):
     """The inverter is gone while it turns: a feed hold, and nobody knows what the spindle does."""
-    run = Run(tool, folder, lambda run: run.vfd.process.kill())
+    run = Run(tool, folder, lambda run: run.peer.process.kill())
     return (run.expect(1, "the VFD does not answer", "all drives were held on the path",
                        "the spindle did not confirm that it stands and may still turn") + run.stops_in_the_cut())
 
@@ -189,9 +152,9 @@ def lost(tool, folder):
 def silent(tool, folder):
     """The inverter does not answer for 2 s, and then again: the spindle is stopped, and not started again."""
     def pause(run):
-        run.vfd.process.send_signal(signal.SIGSTOP)
+        run.peer.process.send_signal(signal.SIGSTOP)
         time.sleep(2.0)
-        run.vfd.process.send_signal(signal.SIGCONT)
+        run.peer.process.send_signal(signal.SIGCONT)
     run = Run(tool, folder, pause)
     return run.expect(1, "the VFD does not answer") + run.ends_for_good() + run.stops_in_the_cut()
 
@@ -204,16 +167,12 @@ def too_slow(tool, folder):
 def absent(tool, folder):
     """Nobody answers where the inverter should be: nothing moves."""
     run = Run(tool, folder)
-    with open(os.path.join(folder, "machine.toml"), encoding="utf-8") as file:
-        machine = file.read()
     again = Drive(tool, folder, 1, 2)
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine.replace(run.drive.tcp_address(), again.tcp_address()))
-    called = subprocess.run([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus"], cwd=folder, capture_output=True,
-                            text=True, timeout=60, check=False)
+    write_machine(folder, run.head, again)
+    called = subprocess.run([tool, *RUN], cwd=folder, capture_output=True, text=True, timeout=60, check=False)
     again.stop()
     problems = [] if called.returncode == 1 else [f"exit status {called.returncode}: {called.stderr}"]
-    if run.vfd.address not in called.stderr:
+    if run.peer.address not in called.stderr:
         problems.append(f"it does not name the inverter: {called.stderr}")
     if any(abs(row[1]) + abs(row[2]) > 1e-6 for row in again.shaft_rows()):
         problems.append("the axes moved")

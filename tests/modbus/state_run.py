@@ -10,9 +10,9 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
+from case_runs import by_profile, run_cases
 from drive_processes import Drive, machine_text
 
 STEPS = 320
@@ -56,14 +56,7 @@ def run(tool, folder, profile):
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    problems = []
-    for profile in ("", "cia402-index"):
-        with tempfile.TemporaryDirectory(prefix="splinefeed-state-") as folder:
-            problems += [f"{profile or 'splinefeed-pvt'}: {problem}" for problem in run(tool, folder, profile)]
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return run_cases(os.path.abspath(sys.argv[1]), by_profile(run, ("", "cia402-index")))
 
 
 if __name__ == "__main__":

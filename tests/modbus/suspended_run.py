@@ -8,9 +8,9 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
+from case_runs import by_profile, run_cases
 from drive_processes import Drive, machine_text
 
 STEPS = 320
@@ -27,6 +27,10 @@ def stops(run, seconds):
                 return True
         time.sleep(0.005)
     return False
+
+
+def run(tool, folder, profile):
+    return one(tool, folder, profile, True) + one(tool, folder, profile, False)
 
 
 def one(tool, folder, profile, resumes):
@@ -71,19 +75,11 @@ def one(tool, folder, profile, resumes):
             ["the machine is held, and the process stops", "the machine stands at x="]
     if run.returncode != (0 if resumes else 1) or not all(word in said for word in words):
         problems.append(f"exit status {run.returncode}: {said}")
-    return [f"{profile or 'splinefeed-pvt'}, {'resumed' if resumes else 'ended'}: {problem}" for problem in problems]
+    return [f"{'resumed' if resumes else 'ended'}: {problem}" for problem in problems]
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    problems = []
-    for profile in ("", "cia402-index", "lexium32m&ramp=1e6"):
-        for resumes in (True, False):
-            with tempfile.TemporaryDirectory(prefix="splinefeed-suspended-") as folder:
-                problems += one(tool, folder, profile, resumes)
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return run_cases(os.path.abspath(sys.argv[1]), by_profile(run, ("", "cia402-index", "lexium32m&ramp=1e6")))
 
 
 if __name__ == "__main__":
