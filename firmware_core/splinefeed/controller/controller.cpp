@@ -167,36 +167,17 @@ ControllerState Controller::state() const noexcept {
 }
 
 ControllerState Controller::activity() const noexcept {
-    if (sleep_) {
-        return ControllerState::sleep;
+    if (sleep_ || task_ == Task::home) {
+        return sleep_ ? ControllerState::sleep : ControllerState::home;
     }
-    if (task_ == Task::home) {
-        return ControllerState::home;
-    }
-    if (is_locked()) {
-        return ControllerState::alarm;
-    }
-    if (check_) {
-        return ControllerState::check;
-    }
-    if (door_) {
-        return ControllerState::door;
-    }
-    if (held_ || ending_ == Ending::reset || ending_ == Ending::stop) {
-        return ControllerState::hold;
-    }
-    if (jogging_) {
-        return ControllerState::jog;
-    }
-    if (tool_) {
-        return ControllerState::tool;
-    }
-    const bool busy = task_ != Task::none || !motion_->exhausted() || !reading_.stands;
-    return busy ? ControllerState::run : ControllerState::idle;
-}
-
-int Controller::part_of_state() const noexcept {
-    return closes_ ? 3 : stands() ? 0 : 1;
+    return is_locked()                                                        ? ControllerState::alarm
+           : check_                                                           ? ControllerState::check
+           : door_                                                            ? ControllerState::door
+           : held_ || ending_ == Ending::reset || ending_ == Ending::stop     ? ControllerState::hold
+           : jogging_                                                         ? ControllerState::jog
+           : tool_                                                            ? ControllerState::tool
+           : task_ != Task::none || !motion_->exhausted() || !reading_.stands ? ControllerState::run
+                                                                              : ControllerState::idle;
 }
 
 void Controller::write_status(bool all) noexcept {
@@ -206,7 +187,7 @@ void Controller::write_status(bool all) noexcept {
     reading_ = machine_->read();
     StatusReport::Content content;
     content.state = state();
-    content.part = part_of_state();
+    content.part = closes_ ? 3 : stands() ? 0 : 1;
     content.reading = &reading_;
     content.offsets = &motion_->interpreter().offsets();
     content.spindle = &spindle_;

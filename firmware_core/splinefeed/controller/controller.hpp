@@ -85,7 +85,6 @@ private:
     void set_overrides() noexcept;
     void write_status(bool all) noexcept;
     [[nodiscard]] ControllerState activity() const noexcept;
-    [[nodiscard]] int part_of_state() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
     [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_ || sleep_; }
     // However many are asked for, reports leave room for answers: without it no line is executed.
@@ -119,6 +118,7 @@ private:
     void carry_out(const ProgramEvent& event) noexcept;
     void end_task() noexcept;
     void drop_task() noexcept;
+    void pause(std::string_view sentence) noexcept;
     void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;

@@ -6,14 +6,6 @@ namespace splinefeed {
 
 using namespace std::string_view_literals; // a firmware has no strlen
 
-namespace {
-
-bool stops_itself(Alarm alarm) noexcept {
-    return alarm == Alarm::drive_fault || alarm == Alarm::link_lost || alarm == Alarm::emergency_stop;
-}
-
-} // namespace
-
 void Controller::cancel_jog() noexcept {
     if (!jogging_ || ending_ != Ending::none) {
         return;
@@ -90,7 +82,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
     if (row.needs_reset) {
         spindle_.stop_all();
     }
-    quick_ = quick_ || stops_itself(alarm);
+    quick_ = quick_ || alarm == Alarm::drive_fault || alarm == Alarm::link_lost || alarm == Alarm::emergency_stop;
     held_ = door_ = closes_ = tool_ = false;
     refused_lines_ = lines_.lines(); // they were sent before
     refusal_ = LineError::locked;

@@ -42,11 +42,7 @@ struct DollarCommands {
         write_build(*c.settings_, axes, c.answers_);
         c.accept();
     }
-    static void startup(Controller& c, TextCursor& rest) noexcept {
-        if (!rest.at_end()) {
-            disabled(c, rest);
-            return;
-        }
+    static void startup(Controller& c, TextCursor& /*rest*/) noexcept {
         c.answers_.put("$N0=").end_line().put("$N1=").end_line();
         c.accept();
     }
@@ -148,9 +144,8 @@ struct DollarCommands {
             c.refuse(LineError::not_now);
             return;
         }
-        const std::int32_t tool = c.motion_->interpreter().offsets().tool_number;
         WorkOffsets none;
-        none.tool_number = tool;
+        none.tool_number = c.motion_->interpreter().offsets().tool_number;
         c.motion_->interpreter().restore(none);
         c.machine_->offsets_changed();
         c.accept();
@@ -158,19 +153,10 @@ struct DollarCommands {
     static void setting(Controller& c, TextCursor& rest) noexcept;
 
     static constexpr Row rows[] = {
-        {"$$", true, settings},
-        {"$#", true, offsets},
-        {"$g", true, modes},
-        {"$i", false, build},
-        {"$n", false, startup},
-        {"$c", true, check},
-        {"$x", true, unlock},
-        {"$h", false, home},
-        {"$j=", false, jog},
-        {"$slp", true, sleep},
-        {"$rst=#", true, clear_offsets},
-        {"$rst=", false, disabled},
-        {"$", true, help},
+        {"$$", true, settings},     {"$#", true, offsets},   {"$g", true, modes},   {"$i", false, build},
+        {"$n", true, startup},      {"$n", false, disabled}, {"$c", true, check},   {"$x", true, unlock},
+        {"$h", false, home},        {"$j=", false, jog},     {"$slp", true, sleep}, {"$rst=#", true, clear_offsets},
+        {"$rst=", false, disabled}, {"$", true, help},
     };
 };
 
@@ -286,10 +272,9 @@ void Controller::accept() noexcept {
 }
 
 void Controller::refuse(LineError error) noexcept {
-    if (answers_nobody()) {
-        return;
+    if (!answers_nobody()) {
+        answers_.put("error:").integer(static_cast<std::int64_t>(error)).end_line();
     }
-    answers_.put("error:").integer(static_cast<std::int64_t>(error)).end_line();
 }
 
 // Lines that had come before are refused, too, and what moves is held: the sender decides.

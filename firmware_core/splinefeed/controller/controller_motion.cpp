@@ -188,6 +188,12 @@ bool Controller::carry_out() noexcept {
     return true;
 }
 
+void Controller::pause(std::string_view sentence) noexcept {
+    held_ = true;
+    motion_->hold();
+    say(sentence);
+}
+
 void Controller::carry_out(const ProgramEvent& event) noexcept {
     switch (event.kind) {
     case EventKind::message:
@@ -196,20 +202,14 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     case EventKind::offsets_changed: machine_->offsets_changed(); return;
     case EventKind::pause:
     case EventKind::optional_pause:
-    case EventKind::pallet_pause:
-        held_ = true;
-        motion_->hold();
-        say("Program paused: '~' goes on");
-        return;
+    case EventKind::pallet_pause: pause("Program paused: '~' goes on"sv); return;
     case EventKind::input_wait:
         if (!event.analog && machine_->has_input(event.number)) {
             machine_->obey(event);
             task_ = Task::input;
             return;
         }
-        held_ = true;
-        motion_->hold();
-        say("M66: there is no input of this number: '~' goes on, a reset ends the program");
+        pause("M66: there is no input of this number: '~' goes on, a reset ends the program"sv);
         return;
     case EventKind::tool_change:
         tool_ = true;
@@ -235,9 +235,7 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
 void Controller::take_input() noexcept {
     motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
     if (reading_.input < 0) {
-        held_ = true;
-        motion_->hold();
-        say("M66: its input has not come in time: '~' goes on, a reset ends the program");
+        pause("M66: its input has not come in time: '~' goes on, a reset ends the program"sv);
     }
 }
 

@@ -155,9 +155,9 @@ LineProgress ScalarMotion<S>::pass_move() noexcept {
     }
     if (leaves) {
         refused_ = true;
-        return LineProgress::done;
+    } else {
+        take_move();
     }
-    take_move();
     return LineProgress::done;
 }
 

@@ -25,10 +25,6 @@ constexpr InputLetter input_letters[] = {{InputBits::probe, 'P'},
                                          {InputBits::reset, 'R'},
                                          {InputBits::emergency_stop, 'E'}};
 
-bool has_part(ControllerState state) noexcept {
-    return state == ControllerState::hold || state == ControllerState::door;
-}
-
 } // namespace
 
 void write_axes(const PerAxis<Decimal>& values, const ProgramSettings& program, bool inches, AnswerText& out) noexcept {
@@ -84,7 +80,7 @@ void StatusReport::write(const Content& content, const ControllerSettings& setti
         position[k] = to_decimal(reading.position[k]) - (of_machine ? Decimal{} : offset[k]);
     }
     out.put('<').put(state_name(content.state));
-    if (has_part(content.state)) {
+    if (content.state == ControllerState::hold || content.state == ControllerState::door) {
         out.put(':').integer(content.part);
     }
     out.put(of_machine ? "|MPos:"sv : "|WPos:"sv);

@@ -145,7 +145,6 @@ private:
 
     // Constant surface speed: surface_steps.cpp.
     [[nodiscard]] bool follow_radius(const ProgramStep& step, ProgramEvent& event) noexcept;
-    [[nodiscard]] Decimal radius_at(const AxisPoint& machine) const noexcept;
     void give_piece(ProgramStep& out, ProgramEvent& event) noexcept;
 
     // Motion: motion_words.cpp.
@@ -156,8 +155,7 @@ private:
     BlockStatus plan_thread() noexcept; // thread_words.cpp
     BlockStatus set_feed_of_turns(Decimal way) noexcept;
     BlockStatus plan_arc() noexcept;
-    void plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
-                       const AxisPoint& machine) noexcept;
+    void plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const Place& end) noexcept;
     BlockStatus plan_cycle(const ModalState& before) noexcept;
     BlockStatus plan_spline(const ModalState& before) noexcept;
     BlockStatus plan_nurbs() noexcept;
@@ -165,9 +163,9 @@ private:
     BlockStatus plan_point() noexcept;
     [[nodiscard]] bool leaves_curve_open() noexcept;
     BlockStatus require_feed() const noexcept;
-    BlockStatus find_end(AxisPoint& program, AxisPoint& machine) const noexcept;
-    BlockStatus move_to(const AxisPoint& program, const AxisPoint& machine) noexcept;
-    [[nodiscard]] BlockStatus check_reach(const AxisPoint& from, const AxisPoint& to) const noexcept;
+    [[nodiscard]] Place find_end() const noexcept;
+    BlockStatus move_to(const Place& end) noexcept;
+    [[nodiscard]] BlockStatus check_reach(const AxisPoint& to) const noexcept;
     [[nodiscard]] Decimal axis_value(int axis) const noexcept;
     [[nodiscard]] bool has_axis(int axis) const noexcept { return block_.has(letters_.letter(axis)); }
     [[nodiscard]] SpacePoint space(const AxisPoint& point) const noexcept;

@@ -36,33 +36,13 @@ struct DialectTable {
         .arc_in_inches = arc_grbl,
     };
 
-    static constexpr DialectRules marlin{
+    static constexpr DialectRules printer{
         .checksums = true,
         .bare_letters = true,
         .one_command = true,
         .skips_unknown = true,
         .extruder = true,
         .free_third_offset = true,
-        .turns_before_arc = true,
-        .small_radius = true,
-        .g28_homes = true,
-        .rapid_has_feed = true,
-        .speed_stops = false,
-        .dwell_speed = true,
-        .dwell = DwellUnit::millisecond,
-        .first_feed = Decimal::from_integer(1500),
-        .arc = arc_printer,
-        .arc_in_inches = arc_printer,
-    };
-
-    static constexpr DialectRules klipper{
-        .checksums = true,
-        .bare_letters = true,
-        .one_command = true,
-        .skips_unknown = true,
-        .extruder = true,
-        .free_third_offset = true,
-        .bare_g92 = true,
         .g28_homes = true,
         .rapid_has_feed = true,
         .speed_stops = false,
@@ -71,6 +51,16 @@ struct DialectTable {
         .arc = arc_printer,
         .arc_in_inches = arc_printer,
     };
+    static constexpr DialectRules marlin = [] {
+        DialectRules rules = printer;
+        rules.turns_before_arc = rules.small_radius = rules.dwell_speed = true;
+        return rules;
+    }();
+    static constexpr DialectRules klipper = [] {
+        DialectRules rules = printer;
+        rules.bare_g92 = true;
+        return rules;
+    }();
 
     // Its controls state no tolerance in public; LinuxCNC's is that of the same decimals.
     static constexpr DialectRules fanuc{

@@ -35,35 +35,30 @@ Decimal BlockInterpreter::axis_value(int axis) const noexcept {
 }
 
 // Where the words of the block lead to.
-BlockStatus BlockInterpreter::find_end(AxisPoint& program, AxisPoint& machine) const noexcept {
-    program = place_.program;
-    if (block_.code(CodeGroup::non_modal) == 530) { // G53: the words are machine coordinates
-        machine = place_.machine;
-        for (int k = 0; k < letters_.count(); ++k) {
-            if (has_axis(k)) {
-                machine[static_cast<unsigned>(k)] = axis_value(k);
-            }
-        }
-        program = frame_.to_program(machine);
-        return {};
-    }
+BlockInterpreter::Place BlockInterpreter::find_end() const noexcept {
+    Place end = place_;
+    const bool of_machine = block_.code(CodeGroup::non_modal) == 530; // G53: the words are machine coordinates
     for (int k = 0; k < letters_.count(); ++k) {
         if (has_axis(k)) {
             const bool incremental = letters_.kind(k) == AxisKind::extruder
                                          ? modal_.extruder_incremental
                                          : modal_.incremental || block_.is_step(letters_.letter(k));
-            Decimal& to = program[static_cast<unsigned>(k)];
-            to = incremental ? to + axis_value(k) : axis_value(k);
+            Decimal& to = (of_machine ? end.machine : end.program)[static_cast<unsigned>(k)];
+            to = incremental && !of_machine ? to + axis_value(k) : axis_value(k);
         }
     }
-    machine = frame_.to_machine(program);
-    return {};
+    if (of_machine) {
+        end.program = frame_.to_program(end.machine);
+    } else {
+        end.machine = frame_.to_machine(end.program);
+    }
+    return end;
 }
 
-BlockStatus BlockInterpreter::check_reach(const AxisPoint& from, const AxisPoint& to) const noexcept {
+BlockStatus BlockInterpreter::check_reach(const AxisPoint& to) const noexcept {
     for (int k = 0; k < letters_.count(); ++k) {
         const auto n = static_cast<unsigned>(k);
-        const Decimal way = to[n] - from[n];
+        const Decimal way = to[n] - place_.machine[n];
         const bool far = !is_position(to[n]);
         if (far || way > longest || way < -longest) {
             const ProgramError error = far ? ProgramError::position_out_of_range : ProgramError::move_too_long;
@@ -73,12 +68,12 @@ BlockStatus BlockInterpreter::check_reach(const AxisPoint& from, const AxisPoint
     return {};
 }
 
-BlockStatus BlockInterpreter::move_to(const AxisPoint& program, const AxisPoint& machine) noexcept {
-    if (const BlockStatus status = check_reach(place_.machine, machine); !status.ok()) {
+BlockStatus BlockInterpreter::move_to(const Place& end) noexcept {
+    if (const BlockStatus status = check_reach(end.machine); !status.ok()) {
         return status;
     }
-    plan_.to = machine;
-    place_ = {program, machine};
+    plan_.to = end.machine;
+    place_ = end;
     return {};
 }
 
@@ -197,13 +192,9 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
 }
 
 BlockStatus BlockInterpreter::plan_line() noexcept {
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const Place end = find_end();
     plan_.kind = PlanKind::line;
-    return move_to(program, machine);
+    return move_to(end);
 }
 
 BlockStatus BlockInterpreter::plan_probe() noexcept {
@@ -236,22 +227,18 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     if (!has_axis(first) && !has_axis(second) && block_.has('r')) {
         return block_.at(ProgramError::arc_end_is_start, 'r');
     }
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const Place end = find_end();
     const auto i = static_cast<unsigned>(first);
     const auto j = static_cast<unsigned>(second);
     ArcGeometry arc;
-    const BlockStatus status =
-        find_arc(block_, modal_, rules(), {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
+    const BlockStatus status = find_arc(block_, modal_, rules(), {place_.program[i], place_.program[j]},
+                                        {end.program[i], end.program[j]}, arc);
     if (!status.ok()) {
         return status;
     }
     if (arc.is_flat && !block_.has_any(Block::bits("abcuvwe"))) {
-        plan_parabola(i, j, arc, program, machine);
-        return move_to(program, machine);
+        plan_parabola(i, j, arc, end);
+        return move_to(end);
     }
     AxisPoint centre = place_.program;
     centre[i] = arc.centre.first;
@@ -267,15 +254,15 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     if ((arc.radius.raw >> coarse) * (sweep >> coarse) > longest_arc) {
         return block_.at(ProgramError::move_too_long, CodeGroup::motion);
     }
-    return move_to(program, machine);
+    return move_to(end);
 }
 
 // In the place of an arc whose centre is too far away. @param first, second  axes of its plane
-void BlockInterpreter::plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
-                                     const AxisPoint& machine) noexcept {
+void BlockInterpreter::plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc,
+                                     const Place& end) noexcept {
     AxisPoint control = place_.program; // across the plane it is half of the way
     for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
-        control[k].raw += (program[k] - place_.program[k]).raw / 2;
+        control[k].raw += (end.program[k] - place_.program[k]).raw / 2;
     }
     control[first] = arc.control.first;
     control[second] = arc.control.second;
@@ -283,7 +270,7 @@ void BlockInterpreter::plan_parabola(unsigned first, unsigned second, const ArcG
     curve.degree = 2;
     curve.points[0] = space(place_.machine);
     curve.points[1] = space(frame_.to_machine(control));
-    curve.points[2] = space(machine);
+    curve.points[2] = space(end.machine);
     plan_.kind = PlanKind::bezier;
 }
 
@@ -297,10 +284,10 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     const AxisPoint end = cycle.end();
     AxisPoint bottom = end;
     bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle.bottom();
-    if (const BlockStatus status = check_reach(place_.machine, frame_.to_machine(bottom)); !status.ok()) {
+    if (const BlockStatus status = check_reach(frame_.to_machine(bottom)); !status.ok()) {
         return status;
     }
-    return move_to(end, frame_.to_machine(end));
+    return move_to({end, frame_.to_machine(end)});
 }
 
 } // namespace splinefeed

@@ -65,12 +65,12 @@ void BlockInterpreter::obey_modes() noexcept {
     const std::int16_t modeless = block_.code(CodeGroup::non_modal);
     const bool moves = (modeless == Block::no_code || modeless == 530) && modal_.motion != ModalState::no_motion &&
                        modal_.motion != ModalState::lost_motion;
-    AxisPoint program;
-    AxisPoint machine;
-    if (moves && !is_cycle(modal_.motion) && !nurbs_.is_open() && find_end(program, machine).ok() &&
-        check_reach(place_.machine, machine).ok()) {
-        place_ = {program, machine};
-        emitted_ = machine;
+    if (!moves || is_cycle(modal_.motion) || nurbs_.is_open()) {
+        return;
+    }
+    if (const Place end = find_end(); check_reach(end.machine).ok()) {
+        place_ = end;
+        emitted_ = end.machine;
     }
 }
 

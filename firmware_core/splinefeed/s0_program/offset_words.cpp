@@ -53,7 +53,7 @@ BlockStatus BlockInterpreter::set_offsets() noexcept {
             if (has_axis(k)) {
                 values[static_cast<unsigned>(k)] = axis_value(k);
                 if (what == 2) {
-                    frame_.set_origin(system, k, axis_value(k));
+                    offsets.systems[static_cast<unsigned>(system)].origin[static_cast<unsigned>(k)] = axis_value(k);
                 }
             }
         }
@@ -111,11 +111,7 @@ BlockStatus BlockInterpreter::check_offsets(CodeGroup group) noexcept {
 // G28, G30: by the point of the words to the stored position; with words only those axes go there.
 BlockStatus BlockInterpreter::plan_reference_move() noexcept {
     const AxisPoint& stored = block_.code(CodeGroup::non_modal) == 280 ? frame_.offsets().g28 : frame_.offsets().g30;
-    AxisPoint program = place_.program;
-    AxisPoint machine = place_.machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const AxisPoint machine = find_end().machine;
     std::uint32_t axes = 0;
     for (int k = 0; k < letters_.count(); ++k) {
         axes |= has_axis(k) ? 1U << static_cast<unsigned>(k) : 0U;
@@ -133,7 +129,7 @@ BlockStatus BlockInterpreter::plan_reference_move() noexcept {
         const auto n = static_cast<unsigned>(k);
         to[n] = axes == 0 || (axes >> n & 1U) != 0 ? stored[n] : machine[n];
     }
-    if (const BlockStatus status = check_reach(place_.machine, machine); !status.ok()) {
+    if (const BlockStatus status = check_reach(machine); !status.ok()) {
         return status;
     }
     plan_.kind = PlanKind::line_by_way;
@@ -141,7 +137,7 @@ BlockStatus BlockInterpreter::plan_reference_move() noexcept {
     plan_.stops_before = true;
     plan_.stop_at_end = true;
     plan_.way = machine;
-    return move_to(frame_.to_program(to), to);
+    return move_to({frame_.to_program(to), to});
 }
 
 // Marlin's homing says where the axes are: G92 ends for them.

@@ -75,11 +75,7 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
     if (!cubic && start.first.raw == 0 && start.second.raw == 0) {
         return block_.at(ProgramError::spline_offset_missing, 'i');
     }
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const Place end = find_end();
     const auto i = static_cast<unsigned>(x);
     const auto j = static_cast<unsigned>(y);
     const auto at = [&](const AxisPoint& base, PlanePoint offset) {
@@ -94,9 +90,9 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
     spline.points[1] = at(place_.program, start);
     if (cubic) {
         results_.spline_out = {modal_.in_mm(block_.value('p')), modal_.in_mm(block_.value('q'))};
-        spline.points[2] = at(program, results_.spline_out);
+        spline.points[2] = at(end.program, results_.spline_out);
     }
-    spline.points[static_cast<unsigned>(spline.degree)] = space(machine);
+    spline.points[static_cast<unsigned>(spline.degree)] = space(end.machine);
     if (cubic) {
         give_directions(spline);
     }
@@ -109,7 +105,7 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
             }
         }
     }
-    return move_to(program, machine);
+    return move_to(end);
 }
 
 BlockStatus BlockInterpreter::plan_nurbs() noexcept {
@@ -145,18 +141,14 @@ BlockStatus BlockInterpreter::plan_nurbs() noexcept {
         return {};
     }
     // As in LinuxCNC, G91 counts from the start of the curve: the program stands there until G5.3.
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
-    if (const BlockStatus status = check_reach(place_.machine, machine); !status.ok()) {
+    const Place end = find_end();
+    if (const BlockStatus status = check_reach(end.machine); !status.ok()) {
         return status;
     }
     if (!nurbs_.accepts(weight)) {
         return block_.at(ProgramError::nurbs_weight_invalid, 'p');
     }
-    nurbs_.add(space(machine), weight);
+    nurbs_.add(space(end.machine), weight);
     return {};
 }
 
@@ -188,19 +180,15 @@ BlockStatus BlockInterpreter::plan_point() noexcept {
     if (modal_.inverse_time) {
         return block_.at(ProgramError::points_inverse_time, CodeGroup::motion);
     }
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const Place end = find_end();
     for (int k = 0; k < letters_.count(); ++k) {
-        const Decimal way = machine[static_cast<unsigned>(k)] - place_.machine[static_cast<unsigned>(k)];
+        const Decimal way = end.machine[static_cast<unsigned>(k)] - place_.machine[static_cast<unsigned>(k)];
         if (way > longest_leg || way < -longest_leg) {
             return block_.at(ProgramError::points_too_far, has_axis(k) ? letters_.letter(k) : ' ');
         }
     }
     plan_.kind = PlanKind::point;
-    return move_to(program, machine);
+    return move_to(end);
 }
 
 // Whether a curve through points goes on in the block, which has been planned: it states a point, or modes that have no

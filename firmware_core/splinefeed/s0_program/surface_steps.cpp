@@ -10,7 +10,7 @@ bool BlockInterpreter::follow_radius(const ProgramStep& step, ProgramEvent& even
         (event.kind == EventKind::spindle_speed || event.kind == EventKind::spindle_clockwise ||
          event.kind == EventKind::spindle_counterclockwise)) {
         if (modal_.surface.applies()) {
-            event.value = modal_.surface.at(radius_at(emitted_));
+            event.value = modal_.surface.at(frame_.to_program(emitted_)[static_cast<unsigned>(letters_.index('x'))]);
         }
         told_speed_ = event.value;
     }
@@ -26,10 +26,6 @@ bool BlockInterpreter::follow_radius(const ProgramStep& step, ProgramEvent& even
                    plane_axes(is_arc ? step.arc->plane : Plane::xy),
                    {letters_.index('x'), letters_.index('y'), letters_.index('z')});
     return true;
-}
-
-Decimal BlockInterpreter::radius_at(const AxisPoint& machine) const noexcept {
-    return frame_.to_program(machine)[static_cast<unsigned>(letters_.index('x'))];
 }
 
 // A piece, or the speed that it needs. Behind a rapid the machine waits for that, as in LinuxCNC.

@@ -16,16 +16,12 @@ BlockStatus BlockInterpreter::plan_thread() noexcept {
     if (modal_.spindle == SpindleState::stopped) {
         return block_.at(ProgramError::spindle_stands, CodeGroup::motion);
     }
-    AxisPoint program;
-    AxisPoint machine;
-    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
-        return status;
-    }
+    const Place end = find_end();
     AxisPoint at = place_.program;
     Decimal& at_x = at[static_cast<unsigned>(x)];
     Decimal& at_z = at[static_cast<unsigned>(z)];
     ThreadCycle& cycle = series_.emplace<ThreadCycle>();
-    if (const BlockStatus status = cycle.begin(block_, modal_, at_x, at_z, program[static_cast<unsigned>(z)]);
+    if (const BlockStatus status = cycle.begin(block_, modal_, at_x, at_z, end.program[static_cast<unsigned>(z)]);
         !status.ok()) {
         return status;
     }
@@ -35,15 +31,15 @@ BlockStatus BlockInterpreter::plan_thread() noexcept {
         }
     }
     at_x = cycle.deepest_x();
-    for (const Decimal end : {cycle.first_z(), cycle.last_z()}) {
-        at_z = end;
-        if (const BlockStatus status = check_reach(place_.machine, frame_.to_machine(at)); !status.ok()) {
+    for (const Decimal level : {cycle.first_z(), cycle.last_z()}) {
+        at_z = level;
+        if (const BlockStatus status = check_reach(frame_.to_machine(at)); !status.ok()) {
             return status;
         }
     }
     plan_.manner.inverse_time = false;
     plan_.kind = PlanKind::thread;
-    return move_to(program, machine);
+    return move_to(end);
 }
 
 bool BlockInterpreter::next_of_thread(ProgramStep& out) noexcept {

@@ -52,10 +52,6 @@ AxisPoint WorkFrame::to_program(const AxisPoint& machine, int system) const noex
     return point;
 }
 
-void WorkFrame::set_origin(int system, int axis, Decimal value) noexcept {
-    offsets_.systems[static_cast<unsigned>(system)].origin[static_cast<unsigned>(axis)] = value;
-}
-
 void WorkFrame::set_place(int system, const AxisPoint& machine, const AxisPoint& values) noexcept {
     WorkSystem& of = offsets_.systems[static_cast<unsigned>(system)];
     AxisPoint point = values;

@@ -32,8 +32,7 @@ public:
     [[nodiscard]] const SineCosine& rotation() const noexcept { return turn_; }
     [[nodiscard]] bool is_turned() const noexcept { return turned_; }
 
-    /// G10 L2: the origin that axes get; others stay. G10 L20: the origin for which the present place is `value`.
-    void set_origin(int system, int axis, Decimal value) noexcept;
+    /// G10 L20: the origin for which the present place is `values`.
     void set_place(int system, const AxisPoint& machine, const AxisPoint& values) noexcept;
     /// G92: `value` is where the axis stands. G52: the offset itself.
     void begin_g92() noexcept;
