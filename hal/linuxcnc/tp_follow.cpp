@@ -142,11 +142,9 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         }
         if (aborted || complete) {
             forget();
-            end_ = at_;
         }
     } else if (input.abort != 0 || failed_) {
         forget();
-        end_ = at_;
     }
     tell(before, output);
 }

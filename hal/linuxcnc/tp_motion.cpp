@@ -90,6 +90,7 @@ void TpMotion::forget() noexcept {
     ring_head_ = ring_count_ = 0;
     planning_ = syncs_ = waits_ = has_now_ = unfinished_ = failed_ = false;
     in_now_s_ = 0.0;
+    end_ = at_;
 }
 
 // Whatever the core refuses: the machine brakes on its path, or stays where it is, and nothing else of what is queued

@@ -63,7 +63,6 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     if (waits_ && (stops || input.may_begin == 0)) {
         if (stops) {
             forget();
-            end_ = at_;
         }
         return;
     }
@@ -88,7 +87,6 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     }
     if (stops && sync_.rests()) {
         forget();
-        end_ = at_;
     } else if (!stops && sync_.first().at_end()) {
         sync_from_ = move(first_).to;
         ++first_;

@@ -10,15 +10,18 @@ using namespace splinefeed_test;
 TEST_CASE_METHOD(PlainRig, "homing", "[stopping]") {
     lines.drive(e_stop, false);
     int interrupts = 0;
-    const auto homed = [&](auto meanwhile) {
+    bool ended = false;
+    const auto homed = [&](auto meanwhile, bool finds = false) {
         GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
         GpioMover mover(
             machine, map, inputs, port, [&] { return interrupts; }, [&] { port.quick_stop(); }, clock);
         const auto friendly = clock.start([&] { meanwhile(); });
         mover.forget_position(0);
         std::string what = mover.home();
-        CHECK_FALSE(mover.referenced(0)); // whatever ended it
+        ended = true;
         friendly->join();
+        CHECK(mover.referenced(0) == finds);                          // whatever ended it
+        CHECK((!finds || std::fabs(mover.position(0) - 2.0) < 1e-9)); // pull_off_mm clear of the edge, which is at 0
         port.close();
         return what;
     };
@@ -31,7 +34,6 @@ TEST_CASE_METHOD(PlainRig, "homing", "[stopping]") {
         CHECK(lines.rows().empty());
     }
     SECTION("leaves home and limit that act both, and finds its reference") {
-        bool homes = true;
         const auto switches = [&] { // home acts below 5 mm of where it stands now, the limit below 2 mm
             const std::int64_t count = port.counts(0);
             const std::array now{std::pair(limit, count < 160), std::pair(home, count < 400)};
@@ -42,26 +44,14 @@ TEST_CASE_METHOD(PlainRig, "homing", "[stopping]") {
             }
         };
         switches();
-        std::string what;
-        {
-            GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
-            GpioMover mover(
-                machine, map, inputs, port, [] { return 0; }, [] {}, clock);
-            const auto carriage = clock.start([&] {
-                while (homes) {
-                    switches();
-                    clock.sleep_us(500);
-                }
-            });
-            what = mover.home();
-            homes = false;
-            carriage->join();
-            CHECK(mover.referenced(0));
-            CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // pull_off_mm clear of the edge, which is at 0
-            CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
-            port.close();
-        }
-        CHECK(what == "");
+        const auto carriage = [&] {
+            while (!ended) {
+                switches();
+                clock.sleep_us(500);
+            }
+        };
+        CHECK(homed(carriage, true) == "");
+        CHECK(std::llabs(port.counts(0) - 560) <= 2); // the edge, and 2 mm
     }
     SECTION("ends at a limit that begins to act on the way") {
         CHECK(homed([&] {
