@@ -5,7 +5,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t rest_us = 2000; // when no drive is due; one that moves is each 4 ms
+constexpr std::uint64_t rest_us = 1000; // when no drive is due; one that moves is each 4 ms
 
 } // namespace
 

@@ -141,8 +141,10 @@ void ModbusPort::set_times(const FeedSegment& first) noexcept {
     times_.settling_us = settle_us;
     phase_times_.port = times_;
     phase_times_.command_us = PortTimes::lead_us + stop_exchanges * settings_.timing.answer_us;
-    stop_times_.hold_us = phase_times_.command_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
-                          stop_times_.settle_us + PvtStop::own_word_us;
+    // A hold may wait for a start that is near, and for what the drives report behind it.
+    stop_times_.hold_us = 2 * PortTimes::lead_us + phase_times_.command_us +
+                          static_cast<std::uint64_t>(2.0 * times_.reserve_us) + stop_times_.settle_us +
+                          PvtStop::own_word_us;
     stop_times_.braking_us = braking_us;
     stop_.set_times(stop_times_, times_);
     phase_times_.stop_us = longest_stop_us() + braking_us;
@@ -330,7 +332,7 @@ void ModbusPort::fail(std::size_t drive, DriveProblem problem, ModbusEvent event
 
 void ModbusPort::begin_stop(StopRequest request, ModbusEvent event) noexcept {
     update_drives();
-    stop_.request(request, now_us_, now_us_ + PortTimes::lead_us, drives_);
+    stop_.request(request, now_us_);
     take(event);
 }
 

@@ -165,6 +165,12 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     gained_us_ = gain_us(trim_.next_end_us(0));
 }
 
+bool PortDrive::starts_about(std::uint64_t now_us) const noexcept {
+    constexpr auto lead_us = static_cast<double>(PortTimes::lead_us);
+    return std::abs(static_cast<double>(now_us) - start_us_) < lead_us &&
+           static_cast<double>(report_.status_us) <= start_us_;
+}
+
 void PortDrive::end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept {
     const double left =
         static_cast<std::int32_t>(sequence - status().executed) * times.segment_us - static_cast<double>(age_us_);

@@ -92,6 +92,9 @@ public:
     [[nodiscard]] bool refuses_start() const noexcept { return start_refused_; }
     /// Starts or resumes it at an instant of the host clock. [us]
     void start(std::uint64_t at_us, const PortTimes& times) noexcept;
+    /// Whether a command that is sent now may arrive about its start: too late to cancel that, or it is not known yet
+    /// whether it moves.
+    [[nodiscard]] bool starts_about(std::uint64_t now_us) const noexcept;
     /// Makes it stop at the end of that segment; if that is too near, as soon as possible.
     void end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept;
 

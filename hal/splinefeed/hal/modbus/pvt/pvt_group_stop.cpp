@@ -5,12 +5,8 @@
 
 namespace splinefeed::hal::modbus {
 
-void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
-                           std::span<const PortDrive> drives) noexcept {
-    if (!sequence_.requested()) {
-        hold_at_us_ = hold_at_us;
-        in_step_ = std::all_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.in_step(); });
-    }
+void PvtGroupStop::request(StopRequest request, std::uint64_t now_us) noexcept {
+    waits_ = waits_ || !sequence_.requested();
     sequence_.request(request, now_us);
 }
 
@@ -46,6 +42,19 @@ bool PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drive
         facts.on_path = together;
     }
     const bool grew = sequence_.update(now_us, facts_);
+    if (waits_) {
+        hold_at_us_ = now_us + PortTimes::lead_us;
+        in_step_ = std::all_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.in_step(); });
+        // A start that is near may come before a drive is told of the hold: it would move, and the others stand.
+        // So all begin, and are held behind it.
+        waits_ = false;
+        for (std::size_t i = 0; i < drives.size(); ++i) {
+            waits_ = waits_ || (sequence_.to_send(i) == StopRequest::hold && drives[i].starts_about(now_us));
+        }
+    }
+    if (waits_) {
+        return grew;
+    }
     for (std::size_t i = 0; i < drives.size(); ++i) {
         if (const StopRequest request = sequence_.to_send(i); request != StopRequest::none) {
             stops_[i].send_once(request, hold_at_us_);

@@ -25,9 +25,7 @@ public:
             stop.reset();
         }
     }
-    /// @param hold_at_us  when a hold begins for all drives; used with the first request [us]
-    void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
-                 std::span<const PortDrive> drives) noexcept;
+    void request(StopRequest request, std::uint64_t now_us) noexcept;
     /// Evaluates the drives' last reports and sends the required commands. Call periodically. Returns whether a drive
     /// got its next request, because its sequence escalated.
     bool update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
@@ -40,8 +38,9 @@ private:
     std::vector<StopFacts> facts_;
     StopSequence sequence_;
     PortTimes times_;
-    std::uint64_t hold_at_us_ = 0;
-    bool in_step_ = false; // all drives were synchronous at the first request
+    std::uint64_t hold_at_us_ = 0; // when a hold begins for all drives
+    bool in_step_ = false;         // all drives were synchronous at the first request
+    bool waits_ = false;           // nothing was sent yet
 };
 
 } // namespace splinefeed::hal::modbus
