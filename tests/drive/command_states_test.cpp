@@ -38,11 +38,3 @@ TEST_CASE("command states: as the table of docs/reference/pvt_map.md has them", 
     }
     CHECK(rows == 11);
 }
-
-TEST_CASE("command states: nothing fits always, the unknown never", "[drive][command_states]") {
-    for (int state = 0; state <= 6; ++state) {
-        CHECK(fits(PvtCommand::none, static_cast<PvtState>(state)));
-        CHECK_FALSE(fits(static_cast<PvtCommand>(12), static_cast<PvtState>(state)));
-        CHECK_FALSE(fits(static_cast<PvtCommand>(65535), static_cast<PvtState>(state)));
-    }
-}

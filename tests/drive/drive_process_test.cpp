@@ -294,19 +294,23 @@ TEST_CASE("drive: over a serial line, at its pace", "[drive][process]") {
     static_cast<void>(tool.shell("kill $(cat cable)"));
 }
 
-TEST_CASE("drive: mbpoll reads its identity", "[drive][process]") {
+TEST_CASE("drive: mbpoll reads and writes the registers of Kinco", "[drive][process]") {
     const Tool tool;
     if (!installed(tool, "mbpoll")) {
         return;
     }
-    const DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --axes 4 --ring 100");
-    const auto call =
-        tool.shell("mbpoll -m tcp -p " + std::to_string(drive.port()) + " -a 1 -0 -r 0 -c 11 -t 4 -1 127.0.0.1");
-    CAPTURE(call.output, call.error);
-    CHECK(call.status == 0);
-    for (const char* row : {"[0]: \t21318", "[1]: \t1", "[2]: \t4", "[3]: \t100", "[8]: \t4660"}) {
-        CHECK(call.output.find(row) != std::string::npos);
+    const DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --position -2 --profile cia402-kinco");
+    CHECK(drive.line().find(", profile cia402-kinco, 1 axis") != std::string::npos);
+    const std::string mbpoll = "mbpoll -m tcp -p " + std::to_string(drive.port()) + " -a 1 -0 -1 ";
+    for (const char* word : {"6", "15"}) {
+        CHECK(tool.shell(mbpoll + "-t 4 -r 12544 127.0.0.1 " + word).status == 0); // 0x3100
     }
+    const auto status = tool.shell(mbpoll + "-t 4:hex -r 12800 -c 1 127.0.0.1"); // 0x3200
+    CAPTURE(status.output, status.error);
+    CHECK(status.output.find("0x0637") != std::string::npos);                      // operation enabled, target reached
+    const auto position = tool.shell(mbpoll + "-t 4:hex -r 14080 -c 2 127.0.0.1"); // 0x3700, low word first
+    CAPTURE(position.output);
+    CHECK(position.output.find("0xFFFE") < position.output.find("0xFFFF"));
 }
 
 TEST_CASE("drive: pymodbus drives it, from the document alone", "[drive][process]") {

@@ -12,10 +12,20 @@ using namespace splinefeed_test;
 
 namespace {
 
-enum class Ending { finished, held, stopped, disabled, fault, power_cycle, homing_interrupted, never_prepared };
-constexpr std::array endings{Ending::finished,           Ending::held,          Ending::stopped,
-                             Ending::disabled,           Ending::fault,         Ending::power_cycle,
-                             Ending::homing_interrupted, Ending::never_prepared};
+enum class Ending {
+    finished,
+    held,
+    stopped,
+    stopped_disabled,
+    disabled,
+    fault,
+    power_cycle,
+    homing_interrupted,
+    never_prepared
+};
+constexpr std::array endings{Ending::finished,      Ending::held,  Ending::stopped,     Ending::stopped_disabled,
+                             Ending::disabled,      Ending::fault, Ending::power_cycle, Ending::homing_interrupted,
+                             Ending::never_prepared};
 constexpr std::size_t troubled = 1; // the drive that something happens to
 
 const SmoothMotion motion = smooth_motion(8000.0, 1, 200, 4000);
@@ -53,9 +63,7 @@ void first_run(Plant& plant, Settings settings, Ending ending) {
             return true;
         };
     }
-    plant.make(settings);
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open(settings);
     if (ending == Ending::never_prepared) {
         return;
     }
@@ -71,12 +79,13 @@ void first_run(Plant& plant, Settings settings, Ending ending) {
         plant.events.emplace_back(plant.began_us + 400'000, [&plant] { plant.models[troubled]->power_cycle(); });
     }
     Asked asked;
-    asked.hold_us = ending == Ending::held || ending == Ending::stopped ? 400'000 : UINT64_MAX;
-    asked.quick_us = ending == Ending::stopped ? 420'000 : UINT64_MAX;
+    const bool stops = ending == Ending::stopped || ending == Ending::stopped_disabled;
+    asked.hold_us = ending == Ending::held || stops ? 400'000 : UINT64_MAX;
+    asked.quick_us = stops ? 420'000 : UINT64_MAX;
     const PortPhase phase = run(plant, motion, asked);
     const bool broke = ending == Ending::fault || ending == Ending::power_cycle;
     CHECK(phase == (broke ? PortPhase::fault : asked.hold_us != UINT64_MAX ? PortPhase::halted : PortPhase::idle));
-    if (ending == Ending::disabled) {
+    if (ending == Ending::disabled || ending == Ending::stopped_disabled) {
         plant.port->power_off();
     }
 }
@@ -182,9 +191,7 @@ TEST_CASE("Set-point port, virtual: a drive that was homed knows where it stands
                                          std::pair("leadshine-pr", true), std::pair("oriental-az", false)}) {
         CAPTURE(profile);
         SetpointPlant plant({.profile = profile});
-        plant.make({.home = true});
-        plant.sample_positions();
-        REQUIRE_FALSE(plant.port->open());
+        plant.open({.home = true});
         REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
         plant.began_us = plant.clock.now_us();
         plant.next = 0;

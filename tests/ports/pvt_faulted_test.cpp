@@ -175,9 +175,7 @@ void judge(PvtPlant& plant, Scenario& scenario, const SmoothMotion& motion, Port
 void run_seed(std::uint64_t seed, Tally& tally) {
     Scenario scenario(seed);
     PvtPlant plant(scenario.parameters);
-    plant.make(scenario.settings);
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open(scenario.settings);
     const double least_us = std::max(1000.0, plant.port->least_segment_us());
     const auto segment_us =
         static_cast<std::uint32_t>(least_us * (1.0 + 1e-3 * static_cast<double>(scenario.dice(2000))));

@@ -25,9 +25,7 @@ struct Homing {
     explicit Homing(double stop_counts_s2) : plant(parameters(stop_counts_s2)) {
         user_clock = &plant.clock;
         interrupts_us = UINT64_MAX;
-        plant.make({.home = true, .interrupted = &interrupted});
-        plant.sample_positions();
-        REQUIRE_FALSE(plant.port->open());
+        plant.open({.home = true, .interrupted = &interrupted});
         began_us = plant.clock.now_us();
     }
     static PvtPlantParameters parameters(double stop_counts_s2) {
@@ -117,9 +115,7 @@ TEST_CASE("PVT port, virtual: a fault is reset where that is asked for, and told
             PvtPlant plant({});
             ModbusPortSettings settings;
             settings.reset = reset;
-            plant.make(settings);
-            plant.sample_positions();
-            REQUIRE_FALSE(plant.port->open());
+            plant.open(settings);
             auto& machine = plant.drives[1]->machine();
             REQUIRE(machine.execute(PvtCommand::enable, 0) == PvtRefusal::none);
             machine.configure({.following_window = 1});
@@ -142,9 +138,7 @@ TEST_CASE("PVT port, virtual: a fault is reset where that is asked for, and told
 TEST_CASE("PVT port, virtual: a drive that another program uses is refused at once, and its motion goes on",
           "[ports]") {
     PvtPlant plant({});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open();
     CHECK_FALSE(plant.port->known_position(0, 0));
     REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
     CHECK(plant.port->known_position(0, 0) == 0);

@@ -62,11 +62,15 @@ public:
         first_sequence = settings.first_sequence;
         port.emplace(wirings, settings);
     }
-    /// Makes the port, and makes it ready for the motion.
-    void begin(const SmoothMotion& motion, const splinefeed::hal::modbus::ModbusPortSettings& settings = {}) {
+    /// Makes the port and opens it, and looks where the shafts are.
+    void open(const splinefeed::hal::modbus::ModbusPortSettings& settings = {}) {
         make(settings);
         sample_positions();
         REQUIRE_FALSE(port->open());
+    }
+    /// And makes it ready for the motion.
+    void begin(const SmoothMotion& motion, const splinefeed::hal::modbus::ModbusPortSettings& settings = {}) {
+        open(settings);
         REQUIRE_FALSE(port->prepare(motion.segments.front()));
         began_us = clock.now_us();
     }

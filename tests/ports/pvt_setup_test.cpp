@@ -21,9 +21,7 @@ Prepared prepare(std::uint64_t seed, std::uint64_t at_us, double lost,
     PvtPlantParameters parameters;
     parameters.seed = seed;
     PvtPlant plant(parameters);
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open();
     const SmoothMotion motion = smooth_motion(10000.0, 1, 40, 10'000);
     plant.wires[1]->faults = {.lost_request = lost, .lost_answer = lost};
     const std::uint64_t opened_us = plant.clock.now_us();

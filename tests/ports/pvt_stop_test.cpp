@@ -15,23 +15,6 @@ const SmoothMotion motion = smooth_motion(20000.0, 2, 150, 2000);
 
 } // namespace
 
-TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", "[ports]") {
-    PvtPlant plant({.clock_ppm = {150.0, -150.0, 0.0}});
-    plant.begin(motion);
-    CHECK(run(plant, motion, {}) == PortPhase::idle);
-    for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(plant.executed_once(i) == motion.segments.size());
-    }
-    CHECK(plant.port->resumes() == 0);
-    INFO(plant.off_path_counts << " counts");
-    CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
-    CHECK(plant.off_path_counts > 0.0);
-    for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(plant.port->report(i).counts.resent == 0);
-    }
-    plant.port->close();
-}
-
 TEST_CASE("PVT port, virtual: segments that are sent again are counted, of the drive that did not get them",
           "[ports]") {
     PvtPlant plant({});

@@ -141,9 +141,7 @@ void judge(SetpointPlant& plant, Scenario& scenario, const SmoothMotion& motion,
 void run_seed(std::uint64_t seed, Tally& tally) {
     Scenario scenario(seed);
     SetpointPlant plant(scenario.parameters);
-    plant.make({.away_us = away_us});
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open({.away_us = away_us});
     SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
     scenario.spoil_setup(plant);
     if (const auto failure = plant.port->prepare(motion.segments.front())) {

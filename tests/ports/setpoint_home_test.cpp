@@ -31,9 +31,7 @@ void watch(DriveProfile& profile) {
 
 TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are enabled and homed", "[ports]") {
     SetpointPlant plant({.change = watch});
-    plant.make({.home = true});
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open({.home = true});
     const std::uint64_t begun_us = plant.clock.now_us();
     CHECK_FALSE(plant.port->prepare(motion.segments.front()));
     CHECK(plant.clock.now_us() - begun_us > 3 * 200'000U); // each took longer than the watchdog's time
@@ -64,9 +62,7 @@ TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again
     REQUIRE(*plant.profile.stream_mode != *plant.profile.homing_mode);
     const RegisterField* const mode = plant.profile.field_of(FieldRole::mode);
     REQUIRE(mode != nullptr);
-    plant.make({.home = true});
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open({.home = true});
     REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
     for (host::ProfileDrive* const drive : plant.drives) {
         std::array<std::uint16_t, 4> registers{};
@@ -159,11 +155,9 @@ TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or sa
         SetpointPlantParameters parameters = fault.parameters;
         parameters.start_counts = parameters.start_counts == 0.0 ? 60'000.0 : parameters.start_counts; // 3 s
         SetpointPlant plant(parameters);
-        plant.make({.home = true, .interrupted = [] {
+        plant.open({.home = true, .interrupted = [] {
                         return asked_to_stop;
                     }});
-        plant.sample_positions();
-        REQUIRE_FALSE(plant.port->open());
         plant.each_ms = [&] {
             if (!spoilt && plant.drives[1]->axis().homing()) {
                 spoilt = std::fabs(plant.drives[1]->axis().reference().velocity_counts_s()) > 15'000.0;
@@ -193,9 +187,7 @@ TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or sa
 
 TEST_CASE("Set-point port, virtual: drives are switched off where a set-up fails, too", "[ports]") {
     SetpointPlant plant({});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
+    plant.open();
     plant.drives[2]->axis().trip(host::AxisFault::following_error);
     CHECK(plant.port->prepare(motion.segments.front()).what.find("it is in fault, code 34321;") == 0);
     CHECK(plant.drives[0]->axis().power() == host::AxisPower::on);

@@ -79,6 +79,13 @@ public:
         port.emplace(wirings, settings);
     }
 
+    /// Makes the port and opens it, and looks where the shafts are.
+    void open(const splinefeed::hal::modbus::SetpointPortSettings& settings = {}) {
+        make(settings);
+        sample_positions();
+        REQUIRE_FALSE(port->open());
+    }
+
     /// Makes the port, and makes it ready for a motion. Returns what is wrong.
     [[nodiscard]] splinefeed::hal::PortFailure
     begin(const SmoothMotion& motion, const splinefeed::hal::modbus::SetpointPortSettings& settings = {}) {

