@@ -34,7 +34,7 @@ BEGIN {
     # interpreter has memory for curves through points.
     if (operated) {
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
-        split("Controller|DollarCommands|SpindleOrders;ScalarMotion" of "|14StepperMachine|DollarCommands;SettingList;SettingTable.*_FUN;" \
+        split("Controller|DollarCommands|SpindleOrders;ScalarMotion" of "|14StepperMachine|DollarCommands;SettingList;(setting_rows|axis_settings).*_FUN;" \
               "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$;" \
               "11Interpreter" of ";" (points ? "12SplinePoints" of : "^$"), may_call, ";")
     }
