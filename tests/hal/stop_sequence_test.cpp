@@ -115,8 +115,10 @@ TEST_CASE("Stop: an axis that escalates does so alone") {
     stop.update(60, facts);
     facts[0].status_us = 80;
     facts[1].status_us = 1100;
+    CHECK(stop.unconfirmed() == 0);
     stop.update(1100, facts);
     CHECK(stop.report(0).held());
+    CHECK(stop.unconfirmed() == 1);
     CHECK(stop.report(1).request == StopRequest::quick_stop);
 }
 
