@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// CatmullRomModified: the whole-curve method bit by bit, corners, merged duplicates, the seam.
+// CatmullRomModified: the whole-curve method bit by bit, corners, the seam.
 #include "splinefeed/s1_curve/catmull_rom_modified.hpp"
 
 #include "support/curve_harness.hpp"
@@ -66,24 +66,5 @@ TEMPLATE_TEST_CASE("catmull-rom modified: a corner ends the curve and starts ano
             REQUIRE(same_shape(segments[i], parts[i]));
         }
         REQUIRE(segments[corner - 1].stop_at_end);
-    }
-}
-
-TEMPLATE_TEST_CASE("catmull-rom modified: duplicates are merged before", "[curve][catmull_rom_modified]", double, float,
-                   Fixed) {
-    using S = TestType;
-    RandomPath random(path_seed + 52);
-    const auto points = random_points<S>(random, 2, 12);
-    auto doubled = points;
-    doubled.insert(doubled.begin() + 5, points[5]);
-    doubled.insert(doubled.begin(), points[0]);
-    const CurveOptions<S> options{2, Parameterization::chordal, literal<S>(0.5), 65536};
-    CatmullRomModified<S> a(options, literal<S>(1));
-    CatmullRomModified<S> b(options, literal<S>(1));
-    const auto once = run_curve<S>(a, open_feeds(waypoints_at(points)));
-    const auto twice = run_curve<S>(b, open_feeds(waypoints_at(doubled)));
-    REQUIRE(once.size() == twice.size());
-    for (std::size_t i = 0; i < once.size(); ++i) {
-        REQUIRE(same_shape(once[i], twice[i]));
     }
 }

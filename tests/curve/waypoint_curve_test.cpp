@@ -8,7 +8,6 @@
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
 #include "support/curve_harness.hpp"
-#include "support/rounds.hpp"
 
 #include <type_traits>
 
@@ -336,40 +335,4 @@ TEMPLATE_TEST_CASE("curve: a waypoint that finds no room is refused and nothing 
         drain<S>(curve, out);
         REQUIRE(same_curve(expected, out));
     });
-}
-
-TEMPLATE_TEST_CASE("curve: a hundred thousand waypoints", "[curve][streaming]", double, float, Fixed) {
-    using S = TestType;
-    RandomPath random(path_seed + 22);
-    auto curve = g2<S>(3);
-    CurveSegment<S> before;
-    CurveSegment<S> segment;
-    std::uint32_t expected = 1;
-    Real worst = 0.0L;
-    Real worst_turn = 0.0L;
-    const auto take = [&] {
-        while (curve.next(segment) == Pull::item) {
-            REQUIRE(segment.waypoint == expected);
-            if (expected++ > 1) {
-                worst = std::max(worst, size(bezier(segment, 0)));
-                worst_turn = std::max(worst_turn, joint_of(before, segment).direction);
-            }
-            before = segment;
-        }
-    };
-    const int count = rounds(100'000, 100'000);
-    for (int i = 0; i < count; ++i) {
-        const double angle = 0.05 * i;
-        Waypoint<S> point;
-        point.position[0] = position_from_mm(30.0 * std::cos(angle) + random.between(-0.01, 0.01));
-        point.position[1] = position_from_mm(30.0 * std::sin(angle) + random.between(-0.01, 0.01));
-        point.position[2] = position_from_mm(0.01 * angle);
-        REQUIRE(curve.push(point).ok());
-        take();
-    }
-    REQUIRE(curve.finish().ok());
-    take();
-    REQUIRE(expected == static_cast<std::uint32_t>(count));
-    CHECK(static_cast<double>(worst) < (std::same_as<S, float> ? 2e-6 : 1e-8)); // moves of 1.5 mm, 0.05 mm bends
-    CHECK(static_cast<double>(worst_turn) < (std::same_as<S, float> ? 1e-4 : 1e-10));
 }

@@ -30,67 +30,25 @@ TEST_CASE("The box and the length of a line are those of its ends") {
     CHECK(move_length(at(0.0, 0.0, 0.0), line, 3, linear) == 5.0);
 }
 
-TEST_CASE("The box of an arc has its extremes, and no more: random arcs against their points") {
-    std::mt19937 random(7); // NOLINT: the same arcs each time
-    std::uniform_real_distribution<double> any(-1.0, 1.0);
-    for (int i = 0; i < 300; ++i) {
-        PathElement<double> arc;
-        arc.shape = MoveShape::arc;
-        const unsigned plane = static_cast<unsigned>(i) % 3U;
-        arc.arc.normal[plane] = 1.0;
-        const double radius = 10.0 * std::fabs(any(random)) + 0.1;
-        const double begin = 3.0 * any(random);
-        const double sweep = 9.0 * any(random);
-        arc.arc.sweep_rad = sweep;
-        const double rise = i % 2 == 0 ? 0.0 : 2.0;
-        const auto point = [&](double share) {
-            std::array<double, 3> p{};
-            const double angle = begin + share * sweep;
-            p[(plane + 1) % 3] = radius * std::cos(angle);
-            p[(plane + 2) % 3] = radius * std::sin(angle);
-            p[plane] = share * rise;
-            return p;
-        };
-        const auto from = point(0.0);
-        const auto to = point(1.0);
-        arc.to = at(to[0], to[1], to[2]);
-        AxisBox box;
-        add_extent(at(from[0], from[1], from[2]), arc, 3, box);
-        std::array<double, 3> low{1e9, 1e9, 1e9};
-        std::array<double, 3> high{-1e9, -1e9, -1e9};
-        constexpr int steps = 4000;
-        for (int j = 0; j <= steps; ++j) {
-            const auto p = point(static_cast<double>(j) / steps);
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-        CAPTURE(i, plane, sweep, begin);
-        for (unsigned k = 0; k < 3; ++k) {
-            CHECK(std::fabs(box.low[k] - low[k]) < 1e-4);
-            CHECK(std::fabs(box.high[k] - high[k]) < 1e-4);
-        }
-        CHECK(std::fabs(move_length(at(from[0], from[1], from[2]), arc, 3, linear) - std::hypot(radius * sweep, rise)) <
-              1e-6);
-    }
-}
-
-TEST_CASE("Helices and spirals of several turns about any axis: random ones against their points") {
+TEST_CASE("Arcs, helices and spirals of several turns about any axis: random ones against their points") {
     std::mt19937 random(11); // NOLINT: the same arcs each time
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int i = 0; i < 400; ++i) {
         std::array<double, 3> n{any(random), any(random), any(random) + 1.5};
         const double norm = std::hypot(n[0], n[1], n[2]);
         n = {n[0] / norm, n[1] / norm, n[2] / norm};
+        if (i % 4 == 0) { // G17, G18 and G19
+            n = {};
+            n[static_cast<unsigned>(i) / 4U % 3U] = 1.0;
+        }
         const double flat = std::hypot(n[0], n[1]);
-        const std::array<double, 3> u{n[1] / flat, -n[0] / flat, 0.0};
+        const auto u = flat == 0.0 ? std::array{1.0, 0.0, 0.0} : std::array{n[1] / flat, -n[0] / flat, 0.0};
         const std::array<double, 3> v{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
         const double radius = 10.0 * std::fabs(any(random)) + 0.1;
         const double growth = i % 3 == 0 ? radius * std::fabs(any(random)) : 0.0;
         const double begin = 3.0 * any(random);
         const double sweep = (i % 2 == 0 ? 9.0 : 60.0) * any(random);
-        const double rise = 60.0 * any(random);
+        const double rise = i % 8 < 4 ? 0.0 : 60.0 * any(random);
         const std::array<double, 3> centre{20.0 * any(random), 20.0 * any(random), 20.0 * any(random)};
         const auto point = [&](double share) {
             std::array<double, 3> p{};

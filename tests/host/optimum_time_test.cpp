@@ -149,11 +149,6 @@ TEST_CASE("without a path there is no time") {
     CHECK(optimum(BezierPath{}, machine_of(3, 100.0, 1000.0, 100.0)) == 0.0);
 }
 
-TEST_CASE("one axis alone") {
-    BezierPath path(1, line_shape(1, 3, {25.0}));
-    CHECK(optimum(path, machine_of(1, 50.0, 1000.0, 100.0)) == Approx(trapezoid(25.0, 50.0, 1000.0)).epsilon(1e-6));
-}
-
 TEST_CASE("a programmed feed holds on its segments, in full and not above the machine's") {
     BezierPath path = line(20.0, 1, 3);
     const double third = 20.0 / 3.0;

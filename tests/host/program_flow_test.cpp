@@ -78,6 +78,12 @@ TEST_CASE("Branches") {
     CHECK(run("O<a> IF [0]\nG0 X1\nO<A> endif") == "");
 }
 
+TEST_CASE("O words in any case and spacing, behind an N number, and not in comments") {
+    CHECK(run(" n10 o 100 s u b\nG0 X#1\nN5O0100ENDSUB(c)\n(o100 call [1])\no100call[3]\nX9") == " 3 9");
+    CHECK(run("o<My Hole> sub\nG0 X[#1+#2]\no<myhole> endsub\nO<MYHOLE> call [1] [2]\n#1=3\n"
+              "o7 sub\nX5\no7endsub\no[#1+[2*2]] call") == " 3 5");
+}
+
 TEST_CASE("Loops, also within one another, with break and continue") {
     CHECK(run("#1=0\no1 while [#1 LT 3]\n#1=[#1+1]\nG0 X#1\no1 endwhile\nX9") == " 1 2 3 9");
     CHECK(run("#1=5\no1 do\nG0 X#1\n#1=[#1+1]\no1 while [#1 LT 3]\nX9") == " 5 9");
@@ -114,6 +120,8 @@ TEST_CASE("A subprogram in a block that runs is defined where the program comes 
     CHECK(run("#1=1" + either) == " 1 2");
     CHECK(run("#1=2" + either) == " 5 10");
     CHECK(run("o1 repeat [3]\no2 sub\nG91 G0 X1\no2 endsub\no2 call\no1 endrepeat") == " 1 2 3");
+    CHECK(run("o1 if [1]\nG0 X3\no2 sub\nX1\no4 repeat [9]\nX2\no4 break\no4 endrepeat\nX5\no2 endsub\n"
+              "o1 endif\no2 call") == " 3 1 2 5");
 }
 
 TEST_CASE("A jump costs the same in a long block") {
@@ -154,7 +162,14 @@ TEST_CASE("Wrong O words are told with line and column") {
     says("o1 repeat [1]\no2 sub\no1 break\no2 endsub\no1 endrepeat", "p.ngc:3:2: there is no loop o1 around");
     says("o1 if [1]\no#1 repeat [1]\no1 endif", "p.ngc:2:2: only call takes an expression");
     says("o1 hop", "p.ngc:1:4: an O word has a number or a <name>");
-    says("o sub", "p.ngc:1:1: an O word has a number or a <name>");
+    for (const char* const word : {"o sub", "o<> sub", "o<abc sub", "o"}) {
+        says(word, "p.ngc:1:1: an O word has a number or a <name>");
+    }
+    std::string deep;
+    for (std::size_t i = 0; i <= FlowBlock::deepest; ++i) {
+        deep += "o" + std::to_string(i) + " if [1]\n";
+    }
+    CHECK(run(deep) == "p.ngc:1001:2: O words are nested more than 1000 deep");
     says("o1 break", "p.ngc:1:2: there is no loop o1 around this line");
     says("o1 return", "p.ngc:1:2: return stands in a subprogram");
     says("o1 repeat [1]\no2 return\no1 endrepeat", "p.ngc:2:2: return stands in a subprogram");
@@ -268,6 +283,11 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
         CHECK(run("o1 (main)\n#1=0\nM98 P100 L3\nX#1" + sub, programs) == " 1 12 23 33 end");
         CHECK(run("#1=0\n#2=100\nN5 M98 P#2 (once)\nM98 P[50+50] L0" + sub, programs) == " 1 end");
         CHECK(run("#1=0\no7 repeat [2]\nM98 P100\no7 endrepeat" + sub, programs) == " 1 12 end");
+        for (const char* const call :
+             {"M98 P300 L2", "n5 m 0 9 8p300L2", "/M98P300L2;x", "(M99) M98 P300 (twice) L2"}) {
+            CHECK(run(std::string("G91\n") + call + "\nM30\no300\nG0 X1\nN9 M99", programs) == " 1 2 end");
+        }
+        CHECK(run("(M98 P1)\nG0 X1 ; M98 P1\n#<m98>=3\nX98\n/M30", programs) == " 1 98 end");
         CHECK(run("M98 P1\nM30\no1\no5 if [1]\nG0 X1\nM99\no5 endif\nX2\nM99", programs) == " 1 end");
         CHECK(run("M98 P1\nM30\no1\nG0 X1\nM30\nM99", programs) == " 1 end"); // M30 ends all
         CHECK(run("M98 P1\nM30\n%\nO0001\nG0 X4\nM99\n%", programs) == " 4 end");
@@ -290,6 +310,7 @@ TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write 
     CHECK(run("G91 G0 X1 M98 P12 X2\nM30\nO12\nX5 M99", fanuc).find("error") != std::string::npos); // X twice
     CHECK(run("G91 G0 X1 M98 P12 L2\nX100\nM30\nO12\nX5 M99", fanuc) == " 1 6 11 111 end");
     CHECK(run("G91 M98 P30012\nM30\nO12\nG0 X5 M99", fanuc) == " 5 10 15 end"); // three times
+    CHECK(run("#1=4\nG91 G0 X[1+2] M98 P7 Y#1\nM30\nO7\nN7 G80 M99 (end)", fanuc) == " 3 end");
     CHECK(run("G91 M98 P30012\nM30\nO12\nX5 M99\nO30012\nG0 X7 M99", fanuc) == " 7 end");
     CHECK(run("G0 X1 M98 P12\nM30\nO12\nM99", NumberedPrograms::linuxcnc).find("error O words") != std::string::npos);
     CHECK(run("M98 P12 X3\nM30\nO12\nM99", NumberedPrograms::linuxcnc) ==

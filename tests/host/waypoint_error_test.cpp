@@ -105,17 +105,6 @@ TEST_CASE("several segments may lead to one waypoint") {
     CHECK(error.largest_mm() == Approx(0.001));
 }
 
-TEST_CASE("the largest error stays") {
-    WaypointError error;
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        error.waypoint(i, at(i, i == 2 ? 0.5 : i == 4 ? -0.25 : 0.0));
-    }
-    for (std::uint32_t i = 1; i < 6; ++i) {
-        error.segment(line({i - 1.0, 0.0}, {static_cast<double>(i), 0.0}, i));
-    }
-    CHECK(error.largest_mm() == Approx(0.5));
-}
-
 TEST_CASE("waypoints that no segment leads to are measured where they were merged") {
     WaypointError error;
     error.waypoint(0, at(0.0, 0.0));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Interpolating B-splines with their storage, and a second way to them: basis functions by the printed recursion and
-// dense elimination with full row pivoting, in long double.
+// Interpolating B-splines with their storage, and a second way to them: basis functions by the printed recursion, and
+// dense elimination.
 #pragma once
 
 #include "splinefeed/splines/bspline_basis.hpp"
 #include "splinefeed/splines/bspline_interpolation.hpp"
 #include "splinefeed/splines/spline_parameters.hpp"
+#include "support/dense_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,6 @@
 #include <vector>
 
 namespace splinefeed_test {
-
-using Real = long double;
 
 /// What is interpolated, in double; exactly representable in every scalar where a test needs that.
 struct Job {
@@ -141,41 +140,6 @@ inline Real recursive_slope(const std::vector<Real>& u, std::size_t i, int k, Re
     return sum;
 }
 
-using Matrix = std::vector<std::vector<Real>>;
-
-/// Solves a x = b with row pivoting for several right-hand sides at once; the smallest pivot is returned.
-inline Real dense_solve(Matrix a, Matrix& b) {
-    const std::size_t n = a.size();
-    Real smallest = 1.0e300L;
-    for (std::size_t i = 0; i < n; ++i) {
-        std::size_t best = i;
-        for (std::size_t r = i; r < n; ++r) {
-            best = std::abs(a[r][i]) > std::abs(a[best][i]) ? r : best;
-        }
-        std::swap(a[i], a[best]);
-        std::swap(b[i], b[best]);
-        smallest = std::min(smallest, std::abs(a[i][i]));
-        for (std::size_t r = i + 1U; r < n; ++r) {
-            const Real m = a[r][i] / a[i][i];
-            for (std::size_t c = i; c < n; ++c) {
-                a[r][c] -= m * a[i][c];
-            }
-            for (std::size_t c = 0; c < b[i].size(); ++c) {
-                b[r][c] -= m * b[i][c];
-            }
-        }
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t c = 0; c < b[i].size(); ++c) {
-            for (std::size_t j = i + 1U; j < n; ++j) {
-                b[i][c] -= a[i][j] * b[j][c];
-            }
-            b[i][c] /= a[i][i];
-        }
-    }
-    return smallest;
-}
-
 /// Collocation matrix and right-hand sides of a job for given parameters and knots, rows in the order of the points,
 /// then the derivatives.
 inline std::pair<Matrix, Matrix> dense_system(const Job& job, const std::vector<Real>& t, const std::vector<Real>& u) {
@@ -204,28 +168,6 @@ inline std::pair<Matrix, Matrix> dense_system(const Job& job, const std::vector<
         add_row(t.back(), true, job.end);
     }
     return {a, b};
-}
-
-/// Largest row sum of the inverse of the collocation matrix, whose own row sums are 1: its condition.
-inline Real condition_of(const Matrix& a) {
-    Matrix inverse(a.size(), std::vector<Real>(a.size()));
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        inverse[i][i] = 1.0L;
-    }
-    dense_solve(a, inverse);
-    Real norm = 0.0L;
-    Real own = 0.0L;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        Real sum = 0.0L;
-        Real own_sum = 0.0L;
-        for (std::size_t j = 0; j < a.size(); ++j) {
-            sum += std::abs(inverse[i][j]);
-            own_sum += std::abs(a[i][j]);
-        }
-        norm = std::max(norm, sum);
-        own = std::max(own, own_sum);
-    }
-    return norm * own;
 }
 
 template <splinefeed::Scalar S>

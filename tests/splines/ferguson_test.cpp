@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// ferguson against the conditions of its joints, measured on the pieces, and against a dense solve; singular systems;
+// ferguson against the conditions of its joints, measured on the pieces; the condition; singular systems;
 // degenerate inputs.
 #include "ferguson_harness.hpp"
 #include "support/curve_harness.hpp"
@@ -47,9 +47,9 @@ Real broken_conditions(const Made<S>& made, const std::vector<FergusonJoint<S>>&
     return worst;
 }
 
-std::vector<std::vector<Real>> dense(const std::vector<FergusonJoint<double>>& joints, bool closed) {
+Matrix dense(const std::vector<FergusonJoint<double>>& joints, bool closed) {
     const std::size_t n = joints.size();
-    std::vector<std::vector<Real>> m(n, std::vector<Real>(n, 0.0L));
+    Matrix m(n, std::vector<Real>(n, 0.0L));
     for (std::size_t i = 0; i < n; ++i) {
         const Real l = static_cast<Real>(joints[i].lambda);
         const Real d = static_cast<Real>(joints[i].delta);
@@ -63,26 +63,6 @@ std::vector<std::vector<Real>> dense(const std::vector<FergusonJoint<double>>& j
         }
     }
     return m;
-}
-
-Real condition_of(const std::vector<std::vector<Real>>& m) {
-    const std::size_t n = m.size();
-    std::vector<Real> sums(n, 0.0L);
-    Real norm = 0.0L;
-    for (std::size_t i = 0; i < n; ++i) {
-        Real sum = 0.0L;
-        for (const Real x : m[i]) {
-            sum += std::fabs(x);
-        }
-        norm = std::max(norm, sum);
-        std::vector<Vec> unit(n);
-        unit[i][0] = 1.0L;
-        const auto column = solve_dense(m, unit);
-        for (std::size_t j = 0; j < n; ++j) {
-            sums[j] += std::fabs(column[j][0]);
-        }
-    }
-    return norm * *std::max_element(sums.begin(), sums.end());
 }
 
 } // namespace
@@ -124,7 +104,7 @@ TEMPLATE_TEST_CASE("ferguson: the joints keep their conditions, measured", "[spl
     }
 }
 
-TEST_CASE("ferguson: tangents and condition against a dense solve", "[splines][ferguson]") {
+TEST_CASE("ferguson: the condition against that of the dense matrix", "[splines][ferguson]") {
     RandomPath random(path_seed + 61);
     CAPTURE(path_seed);
     for (int round = 0; round < 200; ++round) {
@@ -141,20 +121,6 @@ TEST_CASE("ferguson: tangents and condition against a dense solve", "[splines][f
         REQUIRE(made.error == Error::none);
         REQUIRE(made.report.condition <= static_cast<double>(condition) * 1.000001);
         REQUIRE(made.report.condition >= static_cast<double>(condition) / 20.0);
-        const auto p = exact_points(points);
-        const std::size_t n = p.size();
-        std::vector<Vec> right;
-        for (std::size_t j = 0; j < joints.size(); ++j) {
-            const std::size_t i = closed ? j : j + 1;
-            const Real w = static_cast<Real>(joints[j].delta) * static_cast<Real>(joints[j].lambda) *
-                           static_cast<Real>(joints[j].lambda);
-            right.push_back(3.0L * (p[(i + 1) % n] - (1.0L - w) * p[i] - w * p[(i + n - 1) % n]));
-        }
-        const auto tangents = solve_dense(matrix, right);
-        for (std::size_t j = 0; j < joints.size(); ++j) {
-            REQUIRE(static_cast<double>(distance_of(tangents[j], exact_point(made.in[closed ? j : j + 1]))) <=
-                    static_cast<double>(condition) * 1e-14 * (1.0 + static_cast<double>(size(tangents[j])) + 64.0));
-        }
     }
 }
 

@@ -5,12 +5,11 @@
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
-#include "support/exact.hpp"
+#include "support/dense_solve.hpp"
 #include "support/random_path.hpp"
 
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace splinefeed_test {
@@ -82,35 +81,6 @@ inline std::vector<Real> spans_of(const std::vector<Vec>& chords, splinefeed::Pa
     return spans;
 }
 
-/// Solves M x = b (b: one row of six numbers per unknown) by elimination with row pivoting.
-inline std::vector<Vec> solve_dense(std::vector<std::vector<Real>> m, std::vector<Vec> b) {
-    const std::size_t n = b.size();
-    for (std::size_t c = 0; c < n; ++c) {
-        std::size_t best = c;
-        for (std::size_t r = c + 1; r < n; ++r) {
-            best = std::fabs(m[r][c]) > std::fabs(m[best][c]) ? r : best;
-        }
-        std::swap(m[c], m[best]);
-        std::swap(b[c], b[best]);
-        for (std::size_t r = c + 1; r < n; ++r) {
-            const Real f = m[r][c] / m[c][c];
-            if (f != 0.0L) {
-                for (std::size_t k = c; k < n; ++k) {
-                    m[r][k] -= f * m[c][k];
-                }
-                b[r] = b[r] - f * b[c];
-            }
-        }
-    }
-    for (std::size_t c = n; c-- > 0;) {
-        for (std::size_t k = c + 1; k < n; ++k) {
-            b[c] = b[c] - m[c][k] * b[k];
-        }
-        b[c] = (1.0L / m[c][c]) * b[c];
-    }
-    return b;
-}
-
 /// Derivatives by the parameter at the ends; absent: natural.
 struct Ends {
     bool start = false;
@@ -173,16 +143,22 @@ inline std::vector<Cubic> solve_run(const std::vector<Vec>& chords, const std::v
 /// The periodic C2 cubic spline; chord i leads from point i to point i + 1, the last one back to point 0.
 inline std::vector<Cubic> solve_periodic(const std::vector<Vec>& chords, const std::vector<Real>& h) {
     const std::size_t n = chords.size();
-    std::vector<std::vector<Real>> a(n, std::vector<Real>(n, 0.0L));
-    std::vector<Vec> b(n);
+    Matrix a(n, std::vector<Real>(n, 0.0L));
+    Matrix b;
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t p = (i + n - 1) % n;
         a[i][p] += h[p];
         a[i][i] += 2.0L * (h[p] + h[i]);
         a[i][(i + 1) % n] += h[i];
-        b[i] = 6.0L * ((1.0L / h[i]) * chords[i] - (1.0L / h[p]) * chords[p]);
+        const Vec right = 6.0L * ((1.0L / h[i]) * chords[i] - (1.0L / h[p]) * chords[p]);
+        b.emplace_back(right.begin(), right.end());
     }
-    return cubics_from_moments(chords, h, solve_dense(a, b));
+    dense_solve(a, b);
+    std::vector<Vec> moments(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        std::copy(b[i].begin(), b[i].end(), moments[i].begin());
+    }
+    return cubics_from_moments(chords, h, moments);
 }
 
 /// What committing control point i from row R = min(i + 13, ...) costs, for every knot of a run of n segments.

@@ -137,10 +137,4 @@ inline std::int64_t target_units(double mm, const AxisSettings& axis) {
     return static_cast<std::int64_t>(6 * (product < 0 ? -size : size));
 }
 
-/// The nearest whole count.
-inline std::int64_t counts_of(std::int64_t units) {
-    const std::int64_t half = units_per_count / 2;
-    return (units >= 0 ? units + half : units - half) / units_per_count;
-}
-
 } // namespace splinefeed_test
