@@ -6,7 +6,6 @@
 #include "host_sim/curve/methods/joint_report.hpp"
 
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -121,8 +120,7 @@ DescribedCurve describe_curve(std::string_view method, const nlohmann::json& inp
     const Row* const row = find(method);
     if (row == nullptr) {
         const std::vector<std::string_view> names = described_methods();
-        throw DescriptionError(
-            fmt::format("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names)));
+        throw DescriptionError("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names));
     }
     DescribedCurve curve = scalar == ScalarKind::fixed     ? row->fixed(input)
                            : scalar == ScalarKind::float32 ? row->single(input)

@@ -7,12 +7,12 @@
 
 namespace splinefeed::host {
 
-LineOutputs make_line_outputs(const MachineDescription& machine) {
+OutputParts make_line_outputs(const MachineDescription& machine) {
     if (machine.lines.empty()) {
         return {};
     }
     const ProgramChips chips = open_program_chips(machine.lines);
-    LineOutputs out;
+    OutputParts out;
     if (machine.spindle && machine.spindle->lines) {
         out.spindle = std::make_unique<LineSpindle>(*machine.spindle->lines, machine.lines,
                                                     machine.spindle->at_speed_timeout_s, chips);
