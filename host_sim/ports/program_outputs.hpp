@@ -3,9 +3,7 @@
 // coolant, digital outputs and inputs. InputQuestion: how M66 waits for an input, and its answer.
 #pragma once
 
-#include "host_sim/ports/run_inputs.hpp"
-#include "host_sim/ports/run_spindle.hpp"
-#include "host_sim/ports/run_switches.hpp"
+#include "host_sim/ports/output_parts.hpp"
 #include "host_sim/program/program_action.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 #include "splinefeed/s0_program/program_event.hpp"
@@ -35,13 +33,6 @@ private:
     InputWait wait_;
     std::uint64_t until_us_;
     std::optional<bool> before_; // the reading before
-};
-
-/// What of it one kind of line or wire has; null: nothing.
-struct OutputParts {
-    std::unique_ptr<RunSpindle> spindle{};
-    std::shared_ptr<RunSwitches> switches{};
-    std::shared_ptr<RunInputs> inputs{};
 };
 
 /// All functions return at once; but act() and update(), which one thread calls, they may be called by any thread.

@@ -140,6 +140,7 @@ template <Scalar S>
 std::vector<FergusonJoint<S>> joints_of(const std::vector<FergusonJoint<double>>& exact) {
     const double far = std::same_as<S, Fixed> ? 0x1p17 : 0x1p61; // beyond the range, and S can hold it
     std::vector<FergusonJoint<S>> joints;
+    joints.reserve(exact.size());
     for (const FergusonJoint<double>& joint : exact) {
         joints.push_back({from_double<S>(joint.lambda), from_double<S>(std::clamp(joint.mu, -far, far)), joint.delta});
     }

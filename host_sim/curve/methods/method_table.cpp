@@ -5,6 +5,7 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/curve/methods/joint_report.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace splinefeed::host {
@@ -79,12 +80,8 @@ constexpr std::array of_points{
 };
 
 const Row* find(std::string_view method) noexcept {
-    for (const Row& row : table) {
-        if (row.name == method) {
-            return &row;
-        }
-    }
-    return nullptr;
+    const auto* const row = std::ranges::find(table, method, &Row::name);
+    return row != table.end() ? row : nullptr;
 }
 
 } // namespace
