@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <climits>
-#include <string>
-
 #include <poll.h>
+#include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -44,6 +44,23 @@ void abandon(std::string_view sentence, int status) noexcept {
     OutputFile::discard_all();
     say(sentence);
     _exit(status);
+}
+
+Deadline::Deadline(std::chrono::milliseconds time, std::string sentence)
+    : thread_([this, time, text = std::move(sentence)] {
+          std::unique_lock lock(mutex_);
+          if (!ended_.wait_for(lock, time, [this] { return done_; })) {
+              abandon(text, 1);
+          }
+      }) {}
+
+Deadline::~Deadline() {
+    {
+        const std::lock_guard lock(mutex_);
+        done_ = true;
+    }
+    ended_.notify_one();
+    thread_.join();
 }
 
 } // namespace splinefeed::host

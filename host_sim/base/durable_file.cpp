@@ -22,7 +22,7 @@ namespace splinefeed::host {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, int error) {
-    throw OutputError(fmt::format("{}: cannot be written: {}", path, std::generic_category().message(error)));
+    throw OutputError("{}: cannot be written: {}", path, std::generic_category().message(error));
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -116,7 +116,7 @@ void replace_durably(const std::string& name, std::string_view text) {
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;
     if (exists && !S_ISREG(old.st_mode)) { // the new name would take its place, also that of /dev/null
-        throw OutputError(fmt::format("{}: {}", path, refusal_of(old)));
+        throw OutputError("{}: {}", path, refusal_of(old));
     }
     const auto [aside, file] = make_aside(path);
     if (exists) {

@@ -9,7 +9,6 @@
 
 #include <cassert>
 #include <filesystem>
-#include <fmt/format.h>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -111,9 +110,9 @@ void FileClaims::reads(int descriptor, const std::string& name) {
             return; // read once more
         }
         throw InputError(name, 0,
-                         fmt::format("it is the output {} as well, which would replace it; give the output a name of "
-                                     "its own",
-                                     shown(claim.name, "on standard output")));
+                         "it is the output {} as well, which would replace it; give the output a name of "
+                         "its own",
+                         shown(claim.name, "on standard output"));
     }
     known.all.push_back({*identity, name, fcntl(descriptor, F_DUPFD_CLOEXEC, 0)});
 }
@@ -139,15 +138,15 @@ void FileClaims::claim_output(const std::string& path, bool state) {
             continue;
         }
         if (claim.kept >= 0) {
-            throw OutputError(fmt::format("{}: it is the input {} as well, which would be lost; give the output a name "
-                                          "of its own",
-                                          output, shown(claim.name, "on standard input")));
+            throw OutputError("{}: it is the input {} as well, which would be lost; give the output a name "
+                              "of its own",
+                              output, shown(claim.name, "on standard input"));
         }
         if (path == "-" && claim.name == "-") {
             return; // one after another
         }
-        throw OutputError(fmt::format("{}: it is the same file as the output {}; give each its own", output,
-                                      shown(claim.name, "on standard output")));
+        throw OutputError("{}: it is the same file as the output {}; give each its own", output,
+                          shown(claim.name, "on standard output"));
     }
     known.all.push_back({*identity, path, -1, state});
 }

@@ -8,7 +8,7 @@
 namespace splinefeed::host {
 
 const FileKey& FileTable::row(std::string_view key) const {
-    const auto found = std::find_if(keys.begin(), keys.end(), [key](const FileKey& one) { return one.key == key; });
+    const auto found = std::ranges::find(keys, key, &FileKey::key);
     SPLINEFEED_ASSERT(found != keys.end());
     return *found;
 }

@@ -5,7 +5,6 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <cerrno>
-#include <fmt/format.h>
 #include <ios>
 #include <system_error>
 
@@ -24,7 +23,7 @@ InputStream::InputStream(const std::string& path, const std::string& name) {
     if (stop_ < 0) {
         const int error = errno;
         close_all();
-        throw InputError(name, 0, fmt::format("cannot be opened: {}", std::generic_category().message(error)));
+        throw InputError(name, 0, "cannot be opened: {}", std::generic_category().message(error));
     }
     try {
         FileClaims::reads(descriptor_, name);

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace splinefeed::host {
@@ -34,9 +33,9 @@ void require_shallow(std::string_view text, const std::string& file) {
         } else if (c == '[' || c == '{') {
             if (++depth > deepest_json) {
                 throw InputError(file, line_at(text, i),
-                                 fmt::format("arrays and objects are nested more than {} deep; a curve needs six "
-                                             "levels",
-                                             deepest_json));
+                                 "arrays and objects are nested more than {} deep; a curve needs six "
+                                 "levels",
+                                 deepest_json);
             }
         } else if (c == ']' || c == '}') {
             --depth;
@@ -53,14 +52,14 @@ nlohmann::json parse_json(std::string_view text, const std::string& file, std::s
     } catch (const nlohmann::json::parse_error& error) {
         const std::uint64_t line = line_at(text, error.byte == 0 ? 0 : error.byte - 1);
         if (!hint.empty()) {
-            throw InputError(file, line, fmt::format("not JSON; {}", hint));
+            throw InputError(file, line, "not JSON; {}", hint);
         }
         // "[json.exception.parse_error.101] parse error at line 2, column 1: syntax error while parsing value - WHY"
         std::string_view why = error.what();
         const std::size_t dash = why.find(" - ");
         why.remove_prefix(dash == std::string_view::npos ? std::min(why.find(": ") + 2, why.size()) : dash + 3);
         why = why.substr(0, why.find("; last read"));
-        throw InputError(file, line, fmt::format("not JSON: {}", why));
+        throw InputError(file, line, "not JSON: {}", why);
     } catch (const nlohmann::json::out_of_range&) {
         throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");
     }

@@ -78,17 +78,16 @@ std::vector<std::string> words_of(std::string_view name) {
         }
     }
     const auto dull = [](const std::string& word) {
-        return word.empty() || std::find(common.begin(), common.end(), word) != common.end();
+        return word.empty() || std::ranges::find(common, word) != common.end();
     };
-    words.erase(std::remove_if(words.begin(), words.end(), dull), words.end());
+    std::erase_if(words, dull);
     return words;
 }
 
 bool means(std::string_view word, std::string_view here) {
     constexpr std::size_t shortest_part = 3; // "acc" of "acceleration"
     return word == here || (word.size() >= shortest_part && here.substr(0, word.size()) == word) ||
-           std::any_of(meanings.begin(), meanings.end(),
-                       [&](const Meaning& of) { return of.word == word && of.here == here; });
+           std::ranges::any_of(meanings, [&](const Meaning& of) { return of.word == word && of.here == here; });
 }
 
 /// The known name that has all words of the name, or words that mean the same, and the fewest others.
@@ -98,8 +97,8 @@ std::string_view nearest_meaning(std::string_view name, std::span<const std::str
     std::size_t fewest = longest_name;
     for (const std::string_view candidate : known) {
         const std::vector<std::string> here = words_of(candidate);
-        const bool has_all = !words.empty() && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-            return std::any_of(here.begin(), here.end(), [&](const std::string& h) { return means(word, h); });
+        const bool has_all = !words.empty() && std::ranges::all_of(words, [&](const std::string& word) {
+            return std::ranges::any_of(here, [&](const std::string& h) { return means(word, h); });
         });
         if (has_all && here.size() <= fewest) {
             best = here.size() < fewest ? candidate : std::string_view{}; // of two as good ones neither
@@ -134,14 +133,7 @@ std::string_view meant_name(std::string_view name, std::span<const std::string_v
 }
 
 std::string listed(std::span<const std::string_view> names) {
-    std::string out;
-    for (const std::string_view name : names) {
-        if (!out.empty()) {
-            out += ", ";
-        }
-        out += name;
-    }
-    return out;
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> known, std::string_view page) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// option_number: reads the number of a command-line option.
+// option_number: reads the number of a command-line option, or one of a few words.
 #pragma once
 
+#include <cstddef>
+#include <initializer_list>
 #include <string_view>
 
 namespace splinefeed::host {
@@ -13,5 +15,10 @@ namespace splinefeed::host {
 
 /// The same for an integer.
 [[nodiscard]] int read_option_integer(std::string_view option, std::string_view text, int low, int high);
+
+/// The place of the value among the words. Throws a UsageError that names the option, the words and the nearest one if
+/// it is none of them.
+std::size_t require_word(std::string_view option, std::string_view value,
+                         std::initializer_list<std::string_view> words);
 
 } // namespace splinefeed::host

@@ -73,8 +73,8 @@ void OutputFile::discard_all() noexcept {
 }
 
 void OutputFile::fail(const char* action, int error) const {
-    throw OutputError(fmt::format("{}: {}: {}; {}", path_ == "-" ? "standard output" : path_, action,
-                                  std::generic_category().message(error), remedy(error)));
+    throw OutputError("{}: {}: {}; {}", path_ == "-" ? "standard output" : path_, action,
+                      std::generic_category().message(error), remedy(error));
 }
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_) {

@@ -5,13 +5,13 @@
 // the target with it in one step. Before that, and if commit() is never called, an existing target stays unchanged.
 #pragma once
 
-#include <fmt/format.h>
+#include "host_sim/base/input_error.hpp"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <fmt/format.h>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,9 +19,8 @@
 namespace splinefeed::host {
 
 /// An output could not be written. what() is one line: `PATH: what is wrong, what would be right`.
-class OutputError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
+struct OutputError : TextError {
+    using TextError::TextError;
 };
 
 /// Use: OutputFile file(path); file.append(...); file.commit();

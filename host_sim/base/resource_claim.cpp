@@ -25,7 +25,7 @@ SocketName name_of(const std::string& resource) {
     const std::string whole = "splinefeed/" + resource;
     const std::string name = whole.substr(whole.size() - std::min(whole.size(), sizeof out.address.sun_path - 1));
     out.address.sun_family = AF_UNIX;
-    std::copy(name.begin(), name.end(), out.address.sun_path + 1);
+    std::ranges::copy(name, out.address.sun_path + 1);
     out.size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
     return out;
 }

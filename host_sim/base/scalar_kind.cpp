@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/scalar_kind.hpp"
 
-#include "host_sim/base/option_word.hpp"
+#include "host_sim/base/option_number.hpp"
 
 namespace splinefeed::host {
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/standard_streams.hpp"
 
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/output_file.hpp"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
-
+#include <cstdio>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -34,7 +37,7 @@ void draw_line(int descriptor, std::string_view text) noexcept {
     constexpr std::string_view erase_rest = "\x1b[K"; // of the line
     std::array<char, 256> line{'\r'};
     const std::string_view shown = text.substr(0, std::min(text.size(), line.size() - 1 - erase_rest.size()));
-    char* const end = std::copy(erase_rest.begin(), erase_rest.end(), std::copy(shown.begin(), shown.end(), &line[1]));
+    char* const end = std::ranges::copy(erase_rest, std::ranges::copy(shown, &line[1]).out).out;
     [[maybe_unused]] const ssize_t written =
         write(descriptor, line.data(), static_cast<std::size_t>(end - line.data()));
 }
@@ -54,6 +57,18 @@ void tell(std::string_view text) noexcept {
         } else if (written == 0 || errno != EINTR) {
             return;
         }
+    }
+}
+
+void print_whole(std::string_view text, std::string_view what) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw OutputError("standard output: {} cannot be written; keep its reader running to the end", what);
+    }
+}
+
+void tell_note(std::string_view note) {
+    if (!note.empty()) {
+        tell("splinefeed: note: {}\n", printable(note));
     }
 }
 

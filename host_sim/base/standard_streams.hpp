@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// standard_streams: messages on standard error, and standard streams that the process was started without.
+// standard_streams: messages on standard error, texts on standard output, and standard streams that the process was
+// started without.
 #pragma once
 
 #include <fmt/format.h>
-
 #include <string_view>
 #include <utility>
 
@@ -23,10 +23,16 @@ void erase_drawn_line() noexcept;
 /// that moves a machine.
 void tell(std::string_view text) noexcept;
 
+/// A sentence that the user should know, as a line. Nothing where it is empty.
+void tell_note(std::string_view note);
+
 /// As tell(fmt::format(...)).
 template <class... T>
 void tell(fmt::format_string<T...> format, T&&... values) {
     tell(std::string_view(fmt::format(format, std::forward<T>(values)...)));
 }
+
+/// Writes the text and flushes. Throws OutputError where not all of it could be written. @param what  "the summary"
+void print_whole(std::string_view text, std::string_view what);
 
 } // namespace splinefeed::host

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <filesystem>
-#include <fmt/format.h>
 #include <ios>
 
 namespace splinefeed::host {
@@ -21,8 +20,7 @@ std::string read_text_file(const std::string& path, std::size_t largest, const s
         for (std::streamsize count = 0; (count = input.sgetn(block.data(), block.size())) > 0;) {
             text.append(block.data(), static_cast<std::size_t>(count));
             if (text.size() > largest) {
-                throw InputError(shown, 0,
-                                 fmt::format("is larger than the {} bytes that such a file may have", largest));
+                throw InputError(shown, 0, "is larger than the {} bytes that such a file may have", largest);
             }
         }
     } catch (const std::ios_base::failure&) {

@@ -15,7 +15,7 @@ namespace splinefeed::host {
 namespace {
 
 bool has(const FileTable& table, std::string_view key) {
-    return std::any_of(table.keys.begin(), table.keys.end(), [key](const FileKey& row) { return row.key == key; });
+    return std::ranges::any_of(table.keys, [key](const FileKey& row) { return row.key == key; });
 }
 
 } // namespace
@@ -26,9 +26,8 @@ void TomlChecker::require_known(const toml::table& table, const FileTable& keys,
         const std::uint64_t line = key.source().begin.line;
         if (!has(keys, name)) {
             attempt([&] {
-                throw InputError(file_, line,
-                                 fmt::format("unknown key {} in {}{}", in_quotes(name),
-                                             where.empty() ? keys.where : where, in_place_of(name, keys)));
+                throw InputError(file_, line, "unknown key {} in {}{}", in_quotes(name),
+                                 where.empty() ? keys.where : where, in_place_of(name, keys));
             });
         }
     }
@@ -115,7 +114,7 @@ std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view
 std::size_t TomlChecker::choice(const toml::node& node, std::string_view key,
                                 std::span<const std::string_view> names) const {
     const std::string name = text(node, key);
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
         fail(node, fmt::format("{} is {}{}", key, in_quotes(name), suggestion(name, names)));
     }
@@ -140,6 +139,15 @@ const toml::table& TomlChecker::table(const toml::node& node, std::string_view k
         fail(node, fmt::format("{0} must be a table: [{0}] and its keys below", key));
     }
     return *table;
+}
+
+const toml::table* TomlChecker::part(const toml::table& root, const FileTable& keys, std::string_view key) const {
+    const toml::node* const node = root.get(key);
+    if (node == nullptr) {
+        return nullptr;
+    }
+    require_known(table(*node, key), keys);
+    return node->as_table();
 }
 
 const toml::array& TomlChecker::array(const toml::node& node, std::string_view key, std::string_view what) const {

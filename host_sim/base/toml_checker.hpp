@@ -60,7 +60,15 @@ public:
     [[noreturn]] void fail(const Node& node, std::string_view what) const {
         throw InputError(file_, node.source().begin.line, what);
     }
-    [[noreturn]] void fail_file(std::string_view what) const { throw InputError(file_, 0, what); }
+    template <class Node, class First, class... Rest>
+    [[noreturn]] void fail(const Node& node, fmt::format_string<First, Rest...> what, First&& first,
+                           Rest&&... rest) const {
+        fail(node, fmt::format(what, std::forward<First>(first), std::forward<Rest>(rest)...));
+    }
+    template <class... What>
+    [[noreturn]] void fail_file(fmt::format_string<What...> what, What&&... values) const {
+        throw InputError(file_, 0, fmt::format(what, std::forward<What>(values)...));
+    }
 
     /// Refuses other keys than those. @param where  the table, where it is not that of `keys`
     void require_known(const toml::table& table, const FileTable& keys, std::string_view where = {}) const;
@@ -82,6 +90,8 @@ public:
     [[nodiscard]] std::vector<std::string> texts(const toml::node& node, std::string_view key, bool may_be_empty) const;
 
     [[nodiscard]] const toml::table& table(const toml::node& node, std::string_view key) const;
+    /// The table [key], which has these keys and no others; null: it is not there.
+    [[nodiscard]] const toml::table* part(const toml::table& root, const FileTable& keys, std::string_view key) const;
     [[nodiscard]] const toml::array& array(const toml::node& node, std::string_view key, std::string_view what) const;
     /// The tables of [[key]]; empty if the key is not there.
     [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) const;

@@ -3,7 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
-#include "host_sim/base/option_word.hpp"
+#include "host_sim/base/option_number.hpp"
 #include "host_sim/cli/command_options.hpp"
 #include "host_sim/cli/help_pages.hpp"
 #include "host_sim/cli/schema_command.hpp"
@@ -47,9 +47,8 @@ void refuse_short_names(const CLI::App& app, std::span<const char* const> words)
     const std::vector<std::string> names = option_names(app);
     for (const std::string_view word : words) {
         const std::string name = fmt::format("-{}", word.substr(0, word.find('=')));
-        if (word.size() > 2 && word[0] == '-' && std::find(names.begin(), names.end(), name) != names.end()) {
-            throw UsageError(
-                fmt::format("'{}' has no option {}; did you mean '{}'?", app.get_name(), in_quotes(word), name));
+        if (word.size() > 2 && word[0] == '-' && std::ranges::find(names, name) != names.end()) {
+            throw UsageError("'{}' has no option {}; did you mean '{}'?", app.get_name(), in_quotes(word), name);
         }
     }
 }
@@ -61,9 +60,9 @@ void refuse_extras(const CLI::App& app, const Job& job) {
             const std::vector<std::string> names = option_names(app);
             const std::vector<std::string_view> known(names.begin(), names.end());
             const std::string_view near = meant_name(word.substr(0, word.find('=')), known);
-            throw UsageError(fmt::format("'{}' has no option {}; {}", app.get_name(), in_quotes(word),
-                                         near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
-                                                      : fmt::format("did you mean '{}'?", near)));
+            throw UsageError("'{}' has no option {}; {}", app.get_name(), in_quotes(word),
+                             near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
+                                          : fmt::format("did you mean '{}'?", near));
         }
         throw UsageError(takes_no_input(app) ? fmt::format("'{}' takes no input; {} is one word too many",
                                                            app.get_name(), in_quotes(word))
@@ -106,11 +105,11 @@ void take_format(Job& job, const std::string& format) {
         job.run.path.format = known;
     } else if (!format.empty()) {
         const InputFormat* const meant = format_of_suffix(format); // "ngc" for gcode
-        throw UsageError(fmt::format("--format {}: it must be one of {}{}", in_quotes(format), input_formats(", "),
-                                     meant != nullptr ? fmt::format("; did you mean '{}'?", meant->name) : ""));
+        throw UsageError("--format {}: it must be one of {}{}", in_quotes(format), input_formats(", "),
+                         meant != nullptr ? fmt::format("; did you mean '{}'?", meant->name) : "");
     } else {
-        throw UsageError(fmt::format("{}: the name does not say what it is; name a {} file, or add --format {}",
-                                     in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|")));
+        throw UsageError("{}: the name does not say what it is; name a {} file, or add --format {}",
+                         in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|"));
     }
 }
 
@@ -118,14 +117,7 @@ void take_start(Job& job, const std::optional<std::string>& start) {
     if (!start) {
         return;
     }
-    require_word("--start", *start, {"check", "move", "here"});
-    if (*start == "check") {
-        job.run.options.start = StartWay::check;
-    } else if (*start == "move") {
-        job.run.options.start = StartWay::move;
-    } else {
-        job.run.options.start = StartWay::here;
-    }
+    job.run.options.start = static_cast<StartWay>(require_word("--start", *start, {"check", "move", "here"}));
     if (job.run.target == "sim") {
         throw UsageError("--start is for machines that stand somewhere, and the simulated one stands where its program "
                          "begins; name your machine with --target");
@@ -151,12 +143,12 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
         const auto& [option, path] = files[i];
         const CLI::Option* const given = app.get_option_no_throw(option);
         if (given != nullptr && given->count() > 0 && path->empty()) {
-            throw UsageError(fmt::format("{} needs the name of a file, or - for standard output", option));
+            throw UsageError("{} needs the name of a file, or - for standard output", option);
         }
         for (std::size_t j = 0; j < i; ++j) {
             if (!path->empty() && *path == *files[j].second && !std::filesystem::is_character_file(*path, ignored)) {
-                throw UsageError(fmt::format("{} and {} both go to {}; give each its own", files[j].first, option,
-                                             *path == "-" ? "standard output" : in_quotes(*path)));
+                throw UsageError("{} and {} both go to {}; give each its own", files[j].first, option,
+                                 *path == "-" ? "standard output" : in_quotes(*path));
             }
         }
         on_stdout = *path == "-" ? option : on_stdout;
@@ -168,7 +160,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
         require_word("--summary", summary, {"text", "json"});
     }
     if (!summary.empty() && on_stdout != nullptr) {
-        throw UsageError(fmt::format("{} - and --summary both go to standard output; write one to a file", on_stdout));
+        throw UsageError("{} - and --summary both go to standard output; write one to a file", on_stdout);
     }
     job.run.outputs.prints_summary = on_stdout == nullptr;
     job.run.summary = on_stdout != nullptr ? SummaryKind::none
@@ -176,6 +168,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                            : SummaryKind::text;
 }
 
+/// As Command has them.
 constexpr std::array<std::string_view, 10> commands{"run",   "plan", "check",   "curve",  "surface",
                                                     "drive", "link", "machine", "schema", "serve"};
 
@@ -186,24 +179,20 @@ constexpr std::array<std::string_view, 10> commands{"run",   "plan", "check",   
     }
     const std::string& word = words.front();
     if (word.size() > 1 && word.front() == '-') {
-        throw UsageError(fmt::format("{} stands before the command; write it behind: splinefeed {} {} ...",
-                                     in_quotes(word), command, word));
+        throw UsageError("{} stands before the command; write it behind: splinefeed {} {} ...", in_quotes(word),
+                         command, word);
     }
     std::error_code ignored;
     const std::size_t dot = word.rfind('.');
     if (word == "-" || (dot != std::string::npos && format_of_suffix(word.substr(dot + 1)) != nullptr) ||
         std::filesystem::exists(word, ignored)) {
-        throw UsageError(fmt::format("there is no command before {}; write splinefeed run {}", in_quotes(word), word));
+        throw UsageError("there is no command before {}; write splinefeed run {}", in_quotes(word), word);
     }
-    throw UsageError(fmt::format("there is no command {}{}", in_quotes(word), suggestion(word, commands)));
+    throw UsageError("there is no command {}{}", in_quotes(word), suggestion(word, commands));
 }
 
 // What run, plan, check and curve have in common.
 void take_path(Job& job, const CLI::App& command, const Typed& typed) {
-    job.command = command.get_name() == "run"     ? Command::run
-                  : command.get_name() == "plan"  ? Command::plan
-                  : command.get_name() == "check" ? Command::check
-                                                  : Command::curve;
     job.run.motion.enforce = job.command == Command::run;
     check_target(job.run.target);
     if (job.run.target == "sim" && job.run.options.home) {
@@ -259,18 +248,16 @@ std::variant<Job, Answer> take_input(Job& job, const CLI::App& command, Typed& t
     }
     const bool checks_machine = command.get_name() == "machine";
     if (job.run.path.input.empty()) {
-        throw UsageError(fmt::format("the input has no name; give a {} file, or - for standard input",
-                                     checks_machine ? ".toml" : input_formats(" or ", ".")));
+        throw UsageError("the input has no name; give a {} file, or - for standard input",
+                         checks_machine ? ".toml" : input_formats(" or ", "."));
     }
     if (checks_machine) {
-        job.command = Command::machine;
         return job;
     }
     if (command.get_name() == "surface") {
-        job.command = Command::surface;
         static_cast<void>(choose_raster(job.surface));
         if (!typed.format.empty() && typed.format != "json") {
-            throw UsageError(fmt::format("--format {}: a surface is described in json", in_quotes(typed.format)));
+            throw UsageError("--format {}: a surface is described in json", in_quotes(typed.format));
         }
         job.run.path.scalar = read_scalar("--scalar", typed.scalar.value_or("double"), {"fixed", "float", "double"});
         return job;
@@ -312,10 +299,8 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (typed.machine && job.run.machine.empty()) {
         throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
     }
+    job.command = static_cast<Command>(std::ranges::find(commands, command.get_name()) - commands.begin());
     if (takes_no_input(command)) {
-        job.command = command.get_name() == "drive"  ? Command::drive
-                      : command.get_name() == "link" ? Command::link
-                                                     : Command::serve;
         job.link.machine = job.serve.machine = job.run.machine;
         return job;
     }

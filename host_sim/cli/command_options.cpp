@@ -13,6 +13,11 @@ namespace splinefeed::host {
 
 namespace {
 
+/// What is added from now on.
+void in_group(CLI::App& app, const char* name = "Options") {
+    app.option_defaults()->group(name);
+}
+
 void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input,
                    "G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g), waypoints (.csv), or a curve or elements "
@@ -25,82 +30,73 @@ void add_input(CLI::App& app, Job& job, Typed& typed) {
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     CurveArguments& curve = job.run.path.curve;
-    const std::string group = "Curve";
-    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
-        app.add_option(name, value, text)->group(group);
-    };
-    option("--curve", curve.method,
-           (listed(curve_names()) + " (default g2); docs/explanation/curves.md compares them").c_str());
-    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
-        ->group(group)
-        ->disable_flag_override();
+    in_group(app, "Curve");
+    app.add_option("--curve", curve.method,
+                   listed(curve_names()) + " (default g2); docs/explanation/curves.md compares them");
+    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly");
     app.add_flag("--smooth", curve.smooth,
-                 "join the segments of a curve whose curvature jumps (catmull-rom and others) with G2: quintics")
-        ->group(group)
-        ->disable_flag_override();
-    option("--parameterization", curve.parameterization,
-           "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
-    option("--degree", curve.degree,
-           "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
-    option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
-    option("--tension", curve.tension,
-           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
-           "(default 1)");
-    option("--factor", curve.factor,
-           "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
-           "chord)");
-    option("--beta1", curve.beta1, "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
-    option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
-    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point, 1/16 to 16 (default 1)");
-    option(
+                 "join the segments of a curve whose curvature jumps (catmull-rom and others) with G2: quintics");
+    app.add_option("--parameterization", curve.parameterization,
+                   "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
+    app.add_option("--degree", curve.degree,
+                   "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
+    app.add_option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
+    app.add_option(
+        "--tension", curve.tension,
+        "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
+        "(default 1)");
+    app.add_option(
+        "--factor", curve.factor,
+        "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
+        "chord)");
+    app.add_option("--beta1", curve.beta1,
+                   "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
+    app.add_option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
+    app.add_option("--lambda", curve.lambda,
+                   "of ferguson: ratio of the tangents at each point, 1/16 to 16 (default 1)");
+    app.add_option(
         "--mu", curve.mu,
         "of ferguson: tension, -65536 to 65536, or auto, the nearest to 0 that keeps the solve stable (default auto)");
-    option("--curvature-sign", curve.curvature_sign,
-           "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
-    option("--corner-angle", curve.corner_angle,
-           "a turn sharper than this, in degrees, is a corner: the machine stops there (default 60; bspline 180, "
-           "no corners)");
-    option("--tolerance", curve.tolerance,
-           "MM: of polyline, how far the path may be from the lines, 0 to 100 (default 0: exact, with a stop at each "
-           "corner); of elements and of G-code that state none (default: the machine file's)");
-    option("--start-tangent", curve.start_tangent,
-           "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
-           "derivative)");
-    option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
+    app.add_option("--curvature-sign", curve.curvature_sign,
+                   "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
+    app.add_option(
+        "--corner-angle", curve.corner_angle,
+        "a turn sharper than this, in degrees, is a corner: the machine stops there (default 60; bspline 180, "
+        "no corners)");
+    app.add_option(
+        "--tolerance", curve.tolerance,
+        "MM: of polyline, how far the path may be from the lines, 0 to 100 (default 0: exact, with a stop at each "
+        "corner); of elements and of G-code that state none (default: the machine file's)");
+    app.add_option("--start-tangent", curve.start_tangent,
+                   "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
+                   "derivative)");
+    app.add_option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
     app.add_option("--scalar", typed.scalar,
                    "fixed, float or double: number type of the computation (default fixed, as on a microcontroller); "
-                   "float not with a jerk limit")
-        ->group(group);
+                   "float not with a jerk limit");
+    in_group(app);
 }
 
 void add_gcode_options(CLI::App& app, Job& job) {
     GcodeArguments& gcode = job.run.path.gcode;
-    const std::string group = "G-code";
+    in_group(app, "G-code");
     app.add_option("--dialect", gcode.dialect,
                    "linuxcnc, grbl, marlin, fanuc, klipper: whose words they are (default linuxcnc); auto: as the "
-                   "first 200 lines say")
-        ->group(group);
+                   "first 200 lines say");
     app.add_option(
-           "--ignore", gcode.ignore,
-           "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all that the dialect does not have")
-        ->group(group);
-    app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each")
-        ->group(group);
+        "--ignore", gcode.ignore,
+        "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all that the dialect does not have");
+    app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each");
     app.add_flag("--increments", gcode.increments,
-                 "fanuc: lengths without a decimal point count 0.001 mm, in inches 0.0001")
-        ->group(group)
-        ->disable_flag_override();
-    app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /")
-        ->group(group)
-        ->disable_flag_override();
+                 "fanuc: lengths without a decimal point count 0.001 mm, in inches 0.0001");
+    app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /");
     app.add_option("--state", job.run.state,
-                   "S.json: work offsets, stored positions and where the machine stands, from run to run")
-        ->group(group);
+                   "S.json: work offsets, stored positions and where the machine stands, from run to run");
     app.add_option("--position", job.run.position,
                    "X,Y,Z: where the machine stands, in its own coordinates (default: with --home 0, else as --state "
-                   "says, else where the drives say, else 0)")
-        ->group(group);
-    app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1")->group(group)->disable_flag_override();
+                   "says, else where the drives say, else 0)");
+    app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1");
+    in_group(app);
 }
 
 // @param beside  where a machine.toml counts, or empty
@@ -127,14 +123,11 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
         app.add_option("--start", typed.start,
                        "check, move or here: what to do when the machine stands elsewhere than its program begins: "
                        "refuse (default), move there in a straight line, or begin where it stands; not of sim");
-        app.add_flag("--reset", job.run.options.reset, "reset faults of the drives first (modbus)")
-            ->disable_flag_override();
+        app.add_flag("--reset", job.run.options.reset, "reset faults of the drives first (modbus)");
         app.add_flag("--home", job.run.options.home,
-                     "find the references of the axes before the program begins; not of sim")
-            ->disable_flag_override();
+                     "find the references of the axes before the program begins; not of sim");
         app.add_flag("--probe", job.run.options.probe,
-                     "end the run where the probe touches (gpio://); exit status 1 if it never does")
-            ->disable_flag_override();
+                     "end the run where the probe touches (gpio://); exit status 1 if it never does");
     }
     app.add_option("--window", typed.window,
                    "look-ahead of the feed plan in cells, 10 to 1000000 (default 1024); with a jerk limit a quarter "
@@ -144,85 +137,71 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                    "microcontroller)");
     app.add_option("--events", job.run.motion.events,
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
-    const std::string group = "Outputs (- is standard output)";
-    app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
+    in_group(app, "Outputs (- is standard output)");
+    app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period");
     for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
         const SegmentOutputKind& kind = segment_output_kinds()[i];
-        app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help)->group(group);
+        app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help);
     }
-    app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
+    app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments");
     app.add_option("--elements", job.run.outputs.elements,
-                   "E.json: the programmed path as elements; of G-code and elements")
-        ->group(group);
+                   "E.json: the programmed path as elements; of G-code and elements");
     app.add_option("--report", job.run.outputs.report,
-                   "R.html: a page that shows the motion, its limits and the program in a browser")
-        ->group(group);
-    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
+                   "R.html: a page that shows the motion, its limits and the program in a browser");
+    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)");
     app.add_flag_callback(
-           "--no-advice", [&job] { job.run.helps = false; },
-           "leave out what would help: for it the program is planned again for each limit that binds")
-        ->group(group)
-        ->disable_flag_override();
-    app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
-        ->group(group)
-        ->disable_flag_override();
+        "--no-advice", [&job] { job.run.helps = false; },
+        "leave out what would help: for it the program is planned again for each limit that binds");
+    app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error");
+    in_group(app);
 }
 
 void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
-    const std::string group = "Tool path";
-    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
-        app.add_option(name, value, text)->group(group);
-    };
-    option("--along", arguments.along,
-           "u or v: the parameter that runs along the lines (default: no path, the surface)");
-    option("--lines", arguments.lines, "number of lines, 2 to 100000");
-    option("--scallop", arguments.scallop, "instead: as many as leave ridges of this height [mm] at most");
-    option("--ball-radius", arguments.ball_radius,
-           "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
-    option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
-    option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
-    option("--lift", arguments.lift,
-           "one-way: height of the way back above the highest control point [mm] (default 5)");
-    option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
+    in_group(app, "Tool path");
+    app.add_option("--along", arguments.along,
+                   "u or v: the parameter that runs along the lines (default: no path, the surface)");
+    app.add_option("--lines", arguments.lines, "number of lines, 2 to 100000");
+    app.add_option("--scallop", arguments.scallop, "instead: as many as leave ridges of this height [mm] at most");
+    app.add_option("--ball-radius", arguments.ball_radius,
+                   "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
+    app.add_option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
+    app.add_option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
+    app.add_option("--lift", arguments.lift,
+                   "one-way: height of the way back above the highest control point [mm] (default 5)");
+    app.add_option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
+    in_group(app);
     app.add_option("-o,--output", arguments.output,
                    "WAYPOINTS.csv or CURVE.json (default: standard output, waypoints)");
 }
 
 void add_drive_options(CLI::App& app, DriveArguments& arguments) {
-    const auto option = [&app](const char* name, std::optional<std::string>& value, const std::string& text) {
-        return app.add_option(name, value, text);
-    };
     app.add_option(
         "--listen", arguments.listen,
         "tcp://127.0.0.1:1502 (default; ?unit=1), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
         "with &pace=off faster than a line of that rate");
     app.add_option("--profile", arguments.profile,
                    "the drive that it plays: a name or FILE.toml (default splinefeed-pvt)");
-    app.add_flag("--list-profiles", arguments.list_profiles, "print the profiles and do nothing else")
-        ->disable_flag_override();
-    option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
-    option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
-    option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
-    option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
-    option("--faults", arguments.faults,
-           list_drive_faults() +
-               "; P: probability per exchange, MS: for so long, S: when, N: a number; several with commas");
-    app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too")->disable_flag_override();
-    const std::string shafts = "Shafts (one value, or one for each axis)";
-    option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)")->group(shafts);
-    option("--max-acceleration", arguments.max_acceleration, "[counts/s^2]; beyond is a fault (default: none)")
-        ->group(shafts);
-    option("--stop-deceleration", arguments.stop_deceleration, "of a quick stop [counts/s^2] (default 2e6)")
-        ->group(shafts);
-    const std::string loop = "Position loop";
-    option("--bandwidth", arguments.bandwidth, "[Hz] (default 60)")->group(loop);
-    option("--damping", arguments.damping, "0 to 0.999 (default 0.7)")->group(loop);
-    option("--feed-forward", arguments.feed_forward, "of the acceleration; 1 follows exactly (default 1)")->group(loop);
-    const std::string outputs = "Outputs";
-    app.add_option("--record", arguments.record, "T.csv: where the shafts are, each millisecond [counts]")
-        ->group(outputs);
-    app.add_option("--record-segments", arguments.record_segments, "S.csv: each segment when it was executed")
-        ->group(outputs);
+    app.add_flag("--list-profiles", arguments.list_profiles, "print the profiles and do nothing else");
+    app.add_option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
+    app.add_option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
+    app.add_option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
+    app.add_option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
+    app.add_option("--faults", arguments.faults,
+                   list_drive_faults() +
+                       "; P: probability per exchange, MS: for so long, S: when, N: a number; several with commas");
+    app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too");
+    in_group(app, "Shafts (one value, or one for each axis)");
+    app.add_option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)");
+    app.add_option("--max-acceleration", arguments.max_acceleration, "[counts/s^2]; beyond is a fault (default: none)");
+    app.add_option("--stop-deceleration", arguments.stop_deceleration, "of a quick stop [counts/s^2] (default 2e6)");
+    in_group(app, "Position loop");
+    app.add_option("--bandwidth", arguments.bandwidth, "[Hz] (default 60)");
+    app.add_option("--damping", arguments.damping, "0 to 0.999 (default 0.7)");
+    app.add_option("--feed-forward", arguments.feed_forward, "of the acceleration; 1 follows exactly (default 1)");
+    in_group(app, "Outputs");
+    app.add_option("--record", arguments.record, "T.csv: where the shafts are, each millisecond [counts]");
+    app.add_option("--record-segments", arguments.record_segments, "S.csv: each segment when it was executed");
+    in_group(app);
 }
 
 void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
@@ -255,7 +234,7 @@ void add_check(CLI::App& app, Job& job, Typed& typed) {
                       "not with a jerk limit");
     check->add_option("--report", job.run.outputs.report,
                       "R.html: a page that shows the motion, its limits and the program in a browser");
-    check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
+    check->add_flag("--json", typed.json, "print one JSON object");
     check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
                   "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
 }
@@ -265,7 +244,7 @@ void add_curve(CLI::App& app, Job& job, Typed& typed) {
     add_input(*curve, job, typed);
     add_curve_options(*curve, job, typed);
     curve->add_option("-o,--curve-out", job.run.outputs.curve, "C.json (default: standard output)");
-    curve->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
+    curve->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error");
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
 }
 
@@ -274,7 +253,7 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
     surface->add_option("FILE", job.run.path.input, "a grid or sections (.json); - reads standard input")->required();
     surface->add_option("--format", typed.format, "json: format of the input, whatever its name is");
     add_surface_options(*surface, job.surface);
-    surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
+    surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error");
     surface->add_option("--scalar", typed.scalar,
                         "fixed, float or double: number type of parameters, knots and control points (default double)");
     surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
@@ -289,14 +268,10 @@ void add_machine_command(CLI::App& app, Job& job) {
         ->add_option("MACHINE", job.run.path.input,
                      "a machine file (.toml), or for --from-grbl a listing; - reads standard input")
         ->required();
-    machine
-        ->add_flag_callback(
-            "--check", [] {}, "say everything that is wrong, not only the first (the default)")
-        ->disable_flag_override();
-    machine
-        ->add_flag("--from-grbl", job.machine.from_grbl,
-                   "make a machine file of a text with the answer of grbl, grblHAL or FluidNC to $$")
-        ->disable_flag_override();
+    machine->add_flag_callback(
+        "--check", [] {}, "say everything that is wrong, not only the first (the default)");
+    machine->add_flag("--from-grbl", job.machine.from_grbl,
+                      "make a machine file of a text with the answer of grbl, grblHAL or FluidNC to $$");
     machine->add_option("-o,--output", job.machine.output, "MACHINE.toml, for --from-grbl (default: standard output)");
     machine->footer("Example: splinefeed machine --check three_axis.toml\n"
                     "         splinefeed machine --from-grbl settings.txt -o router.toml\n"
@@ -350,7 +325,8 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
         "help. Ctrl-C brakes and ends it, a second one stops at once.");
     for (CLI::App* const command : app.get_subcommands([](CLI::App* /*command*/) { return true; })) {
         for (CLI::Option* const option : command->get_options()) {
-            option->type_name(""); // the descriptions say what a value may be
+            option->type_name("");           // the descriptions say what a value may be
+            option->disable_flag_override(); // --quiet=no
         }
         command->allow_extras();
         command->set_help_flag("-h,--help", "print this help");

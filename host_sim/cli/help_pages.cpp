@@ -42,14 +42,14 @@ std::string escaped(std::string_view text) {
 
 std::string upper(std::string_view text) {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::toupper(c); });
+    std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::toupper(c); });
     return out;
 }
 
 void write_options(std::string& out, const CLI::App& app) {
     std::vector<std::string> groups;
     for (const CLI::Option* option : app.get_options()) {
-        if (std::find(groups.begin(), groups.end(), option->get_group()) == groups.end()) {
+        if (std::ranges::find(groups, option->get_group()) == groups.end()) {
             groups.push_back(option->get_group());
         }
     }
@@ -85,15 +85,14 @@ void write_footer(std::string& out, const CLI::App& app) {
 std::string man_page(const CLI::App& app, std::string_view command) {
     const std::string name = app.get_name();
     const std::vector<const CLI::App*> commands = commands_of(app);
-    const auto found =
-        std::find_if(commands.begin(), commands.end(), [&](const CLI::App* one) { return one->get_name() == command; });
+    const auto found = std::ranges::find_if(commands, [&](const CLI::App* one) { return one->get_name() == command; });
     if (found == commands.end() && command != name) {
         std::vector<std::string> names{name};
         for (const CLI::App* one : commands) {
             names.push_back(one->get_name());
         }
-        throw UsageError(fmt::format("--man {}{}", in_quotes(command),
-                                     suggestion(command, std::vector<std::string_view>(names.begin(), names.end()))));
+        throw UsageError("--man {}{}", in_quotes(command),
+                         suggestion(command, std::vector<std::string_view>(names.begin(), names.end())));
     }
     const CLI::App& of = found == commands.end() ? app : **found;
     const std::string page = &of == &app ? name : fmt::format("{}-{}", name, command);

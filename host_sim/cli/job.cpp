@@ -2,7 +2,7 @@
 #include "host_sim/cli/job.hpp"
 
 #include "host_sim/base/file_claims.hpp"
-#include "host_sim/run/check_program.hpp"
+#include "host_sim/run/runner.hpp"
 
 namespace splinefeed::host {
 
@@ -17,6 +17,7 @@ int carry_out(const Job& job) {
     case Command::drive: return run_drive(job.drive);
     case Command::link: return report_link(job.link);
     case Command::machine: return run_machine(job.run.path.input, job.machine);
+    case Command::schema: break; // an answer, not a job
     case Command::serve: return run_serve(job.serve);
     }
     return 1;

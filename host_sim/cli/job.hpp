@@ -1,17 +1,39 @@
 // SPDX-License-Identifier: MIT
-// Job: the work of one call of the tool.
+// Job: the work of one call of the tool. The commands `splinefeed link` and `splinefeed machine`, with their options as
+// typed.
 #pragma once
 
-#include "host_sim/cli/link_command.hpp"
-#include "host_sim/cli/machine_command.hpp"
 #include "host_sim/drive/drive_command.hpp"
 #include "host_sim/run/runner.hpp"
 #include "host_sim/serve/serve_command.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
 
+#include <string>
+#include <vector>
+
 namespace splinefeed::host {
 
-enum class Command { run, plan, check, curve, surface, drive, link, machine, serve };
+struct LinkArguments {
+    std::string target;                  ///< empty: not given
+    std::string machine;                 ///< empty: not named; MachineChoice
+    std::vector<std::string> settings{}; ///< of --set
+    std::string seconds = "3";
+};
+
+/// Measures every drive of the target for the given time and prints the result with advice; nothing moves. Returns the
+/// exit status, 0. Throws UsageError, InputError, and TargetError if a drive cannot be used or is in fault.
+[[nodiscard]] int report_link(const LinkArguments& arguments);
+
+struct MachineArguments {
+    bool from_grbl = false; ///< make a machine file of what a controller answers to $$
+    std::string output;     ///< for it; empty: standard output
+};
+
+/// Prints all that is wrong with the file, a line each, or that nothing is; or makes one. Returns the exit status: 0,
+/// or 1 if something is wrong. Throws InputError, UsageError, OutputError.
+[[nodiscard]] int run_machine(const std::string& file, const MachineArguments& arguments);
+
+enum class Command { run, plan, check, curve, surface, drive, link, machine, schema, serve };
 
 struct Job {
     Command command = Command::run;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/cli/link_command.hpp"
+#include "host_sim/cli/job.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/config/machine_choice.hpp"
 #include "host_sim/ports/target_table.hpp"
-
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -19,7 +16,7 @@ double measuring_time(const std::string& text) {
     constexpr double longest_s = 3600.0;
     double seconds = 0.0;
     if (read_number(text, seconds) != NumberText::number || seconds < shortest_s || seconds > longest_s) {
-        throw UsageError(fmt::format("--seconds {}: it must be a number from 0.1 to 3600", in_quotes(text)));
+        throw UsageError("--seconds {}: it must be a number from 0.1 to 3600", in_quotes(text));
     }
     return seconds;
 }
@@ -36,9 +33,7 @@ int report_link(const LinkArguments& arguments) {
     const MachineChoice choice{arguments.machine, arguments.settings};
     const MachineDescription machine = choose_machine(choice);
     const bool any_machine = machine.file.empty();
-    if (const std::string note = note_of(choice, machine); !note.empty()) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
+    tell_note(note_of(choice, machine));
     const LinkReport report = kind.report(arguments.target, machine, any_machine, seconds);
     print_whole(report.text, "the report");
     if (!report.trouble.empty()) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/cli/machine_command.hpp"
+#include "host_sim/cli/job.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/machine_file.hpp"
@@ -33,7 +32,7 @@ std::vector<std::string> problems_of(const std::string& text, const std::string&
 void write_machine_of_grbl(const std::string& listing, const std::string& output) {
     const GrblMachine machine = machine_of_grbl(read_text_file(listing, largest_machine_file), listing);
     if (const std::vector<std::string> problems = problems_of(machine.text, {}); !problems.empty()) {
-        throw InputError(listing, 0, fmt::format("its numbers are no machine together: {}", problems.front()));
+        throw InputError(listing, 0, "its numbers are no machine together: {}", problems.front());
     }
     OutputFile file(output.empty() ? "-" : output);
     file.append(machine.text);

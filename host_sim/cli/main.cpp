@@ -2,14 +2,12 @@
 // The tool `splinefeed`: exceptions become exit statuses here and nowhere else.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/cli/command_line.hpp"
 #include "host_sim/ports/run_target.hpp"
 
 #include <csignal>
 #include <exception>
-#include <fmt/format.h>
 #include <iostream>
 
 int main(int argc, char** argv) {

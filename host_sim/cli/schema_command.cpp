@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace splinefeed::host {
@@ -55,9 +54,9 @@ std::span<const std::string_view> schema_names() {
 }
 
 std::string json_schema(std::string_view name) {
-    const auto* const found = std::find(names.begin(), names.end(), name);
+    const auto* const found = std::ranges::find(names, name);
     if (found == names.end()) {
-        throw UsageError(fmt::format("there is no schema {}{}", in_quotes(name), suggestion(name, names)));
+        throw UsageError("there is no schema {}{}", in_quotes(name), suggestion(name, names));
     }
     const Schema& schema = schemas[static_cast<std::size_t>(found - names.begin())];
     Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", schema.title}};

@@ -11,7 +11,7 @@ namespace splinefeed::host {
 inline constexpr std::array<int, 10> baud_rates{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800};
 
 [[nodiscard]] constexpr bool is_baud_rate(int baud) noexcept {
-    return std::find(baud_rates.begin(), baud_rates.end(), baud) != baud_rates.end();
+    return std::ranges::find(baud_rates, baud) != baud_rates.end();
 }
 
 } // namespace splinefeed::host

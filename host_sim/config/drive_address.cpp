@@ -21,8 +21,7 @@ namespace {
 int whole_number(std::string_view key, std::string_view value, int low, int high) {
     const auto number = read_whole(value, low, high);
     if (!number) {
-        throw AddressError(
-            fmt::format("{} is {}; it must be a whole number from {} to {}", key, in_quotes(value), low, high));
+        throw AddressError("{} is {}; it must be a whole number from {} to {}", key, in_quotes(value), low, high);
     }
     return *number;
 }
@@ -31,7 +30,7 @@ void take_baud(DriveAddress& address, std::string_view value) {
     address.link.baud = whole_number("baud", value, baud_rates.front(), baud_rates.back());
     address.states_baud = true;
     if (!is_baud_rate(address.link.baud)) {
-        throw AddressError(fmt::format("baud is {}; it must be one of {}", value, fmt::join(baud_rates, ", ")));
+        throw AddressError("baud is {}; it must be one of {}", value, fmt::join(baud_rates, ", "));
     }
 }
 
@@ -40,8 +39,7 @@ double ramp(std::string_view value) {
     constexpr double most = 1e12;
     double number = 0.0;
     if (read_number(value, number) != NumberText::number || number < least || number > most) {
-        throw AddressError(
-            fmt::format("ramp is {}; it must be a number of counts/s^2 from 1 to 1e12", in_quotes(value)));
+        throw AddressError("ramp is {}; it must be a number of counts/s^2 from 1 to 1e12", in_quotes(value));
     }
     return number;
 }
@@ -77,12 +75,12 @@ void take_key(DriveAddress& address, std::string_view key, std::string_view valu
     } else if (key == "resample" && (value == "yes" || value == "no")) {
         address.resample = value == "yes";
     } else if (key == "resample") {
-        throw AddressError(fmt::format("resample is {}; it must be yes or no", in_quotes(value)));
+        throw AddressError("resample is {}; it must be yes or no", in_quotes(value));
     } else if (key == "baud" && line) {
         take_baud(address, value);
     } else if (key == "parity" && line) {
         if (value != "N" && value != "E" && value != "O") {
-            throw AddressError(fmt::format("parity is {}; it must be N, E or O", in_quotes(value)));
+            throw AddressError("parity is {}; it must be N, E or O", in_quotes(value));
         }
         address.link.parity = value.front();
         address.states_parity = true;
@@ -90,10 +88,10 @@ void take_key(DriveAddress& address, std::string_view key, std::string_view valu
         address.link.stop_bits = whole_number(key, value, 1, 2);
     } else {
         const std::size_t known = line ? serial.size() : serial.size() - serial_only;
-        if (std::find(serial.begin(), serial.end(), key) != serial.end()) {
-            throw AddressError(fmt::format("{} is of serial lines; leave it out", key));
+        if (std::ranges::find(serial, key) != serial.end()) {
+            throw AddressError("{} is of serial lines; leave it out", key);
         }
-        throw AddressError(fmt::format("unknown key {}{}", in_quotes(key), suggestion(key, {serial.data(), known})));
+        throw AddressError("unknown key {}{}", in_quotes(key), suggestion(key, {serial.data(), known}));
     }
 }
 
@@ -128,15 +126,14 @@ DriveAddress parse_drive_address(const std::string& text) {
     if (parts.scheme == "modbus-rtu") {
         address.link.wire = hal::modbus::Wire::rtu;
     } else if (parts.scheme != "modbus-tcp") {
-        throw AddressError(fmt::format("{} is no address of a drive; write modbus-tcp://HOST:PORT or "
-                                       "modbus-rtu:///dev/ttyUSB0?baud=115200",
-                                       in_quotes(text)));
+        throw AddressError("{} is no address of a drive; write modbus-tcp://HOST:PORT or "
+                           "modbus-rtu:///dev/ttyUSB0?baud=115200",
+                           in_quotes(text));
     }
     take_place(address, parts.place);
     for (const AddressText::Setting& setting : parts.settings) {
         if (setting.value.empty()) {
-            throw AddressError(
-                fmt::format("{} has no value; write key=value, with & between two", in_quotes(setting.text)));
+            throw AddressError("{} has no value; write key=value, with & between two", in_quotes(setting.text));
         }
         take_key(address, setting.key, setting.value);
     }

@@ -2,18 +2,18 @@
 // DriveAddress: the address of a drive and its profile, as in --target, `drive = ` of a machine file, and --listen.
 #pragma once
 
+#include "host_sim/base/input_error.hpp"
 #include "splinefeed/hal/modbus/link/link_address.hpp"
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace splinefeed::host {
 
 /// What is wrong with an address, and what would be right; the caller adds where the address is.
-struct AddressError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct AddressError : TextError {
+    using TextError::TextError;
 };
 
 struct DriveAddress {

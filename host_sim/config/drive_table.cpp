@@ -123,9 +123,8 @@ private:
                    table_.drives.front().profile.name, profile.name);
         }
         table_.interpolate = interpolates;
-        const auto known =
-            std::find_if(table_.drives.begin(), table_.drives.end(),
-                         [&](const DriveTable::Drive& drive) { return drive.address.link == address.link; });
+        const auto known = std::ranges::find_if(
+            table_.drives, [&](const DriveTable::Drive& drive) { return drive.address.link == address.link; });
         if (known != table_.drives.end()) {
             check_same(*known, address, profile);
             return *known;
@@ -183,15 +182,15 @@ DriveTable drive_table(const std::string& target, const MachineDescription& mach
                 throw UsageError("--target modbus takes the drives from the machine file; name it with -m");
             }
             throw InputError(machine.file, machine.axis_line[k],
-                             fmt::format("axis {} has no drive; add drive = \"modbus-tcp://HOST:PORT?unit=1\" to it",
-                                         machine.axis_name[k]));
+                             "axis {} has no drive; add drive = \"modbus-tcp://HOST:PORT?unit=1\" to it",
+                             machine.axis_name[k]);
         }
         const auto refused = [&](const std::runtime_error& error) {
             if (of_file) {
-                throw InputError(machine.file, machine.axis_line[k],
-                                 fmt::format("drive of axis {}: {}", machine.axis_name[k], error.what()));
+                throw InputError(machine.file, machine.axis_line[k], "drive of axis {}: {}", machine.axis_name[k],
+                                 error.what());
             }
-            throw UsageError(fmt::format("--target {}: {}", in_quotes(target), error.what()));
+            throw UsageError("--target {}: {}", in_quotes(target), error.what());
         };
         try {
             DriveAddress address = parse_drive_address(of_file ? machine.drive[k] : target);

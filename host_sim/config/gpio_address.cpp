@@ -7,7 +7,6 @@
 #include "host_sim/config/drive_address.hpp"
 
 #include <array>
-#include <fmt/format.h>
 #include <string_view>
 
 namespace splinefeed::host {
@@ -25,21 +24,21 @@ bool is_gpio_address(const std::string& text) {
 GpioAddress parse_gpio_address(const std::string& text) {
     constexpr std::array<std::string_view, 1> keys{"map"};
     if (!is_gpio_address(text)) {
-        throw AddressError(fmt::format("{} is no address of a GPIO chip; write {}", in_quotes(text), example));
+        throw AddressError("{} is no address of a GPIO chip; write {}", in_quotes(text), example);
     }
     const AddressText parts = split_address(text);
     GpioAddress address;
     address.chip = parts.place;
     if (address.chip.size() < 2 || address.chip.front() != '/') {
-        throw AddressError(fmt::format("the chip is {}; it must be its whole path, with three slashes in all: {}",
-                                       in_quotes(address.chip), example));
+        throw AddressError("the chip is {}; it must be its whole path, with three slashes in all: {}",
+                           in_quotes(address.chip), example);
     }
     for (const AddressText::Setting& setting : parts.settings) {
         if (setting.key != keys.front()) {
-            throw AddressError(fmt::format("unknown key {}{}", in_quotes(setting.key), suggestion(setting.key, keys)));
+            throw AddressError("unknown key {}{}", in_quotes(setting.key), suggestion(setting.key, keys));
         }
         if (setting.value.empty()) {
-            throw AddressError(fmt::format("map has no value; write {}", example));
+            throw AddressError("map has no value; write {}", example);
         }
         if (!address.map.empty()) {
             throw AddressError("there are two maps; give one, in which lines may be of several chips");
@@ -47,7 +46,7 @@ GpioAddress parse_gpio_address(const std::string& text) {
         address.map = setting.value;
     }
     if (address.map.empty()) {
-        throw AddressError(fmt::format("there is no map, which says what the lines are for; write {}", example));
+        throw AddressError("there is no map, which says what the lines are for; write {}", example);
     }
     return address;
 }

@@ -37,15 +37,15 @@ public:
             map_.consumer = check_.text(*consumer, "consumer");
             if (const double longest = map_table.row("consumer").high;
                 static_cast<double>(map_.consumer.size()) > longest) {
-                check_.fail(*consumer, fmt::format("consumer must have at most {} letters", longest));
+                check_.fail(*consumer, "consumer must have at most {} letters", longest);
             }
         }
         axes(root);
-        if (const toml::node* node = root.get("enable")) {
-            enable(check_.table(*node, "enable"));
+        if (const toml::table* const table = check_.part(root, enable_table, "enable")) {
+            enable(*table);
         }
-        if (const toml::node* node = root.get("brake")) {
-            brake(check_.table(*node, "brake"));
+        if (const toml::table* const table = check_.part(root, brake_table, "brake")) {
+            brake(*table);
         }
         for (const toml::table* table : check_.tables(root, "input")) {
             input(*table);
@@ -55,8 +55,8 @@ public:
                 home(*value, k);
             }
         }
-        if (const toml::node* node = root.get("thread")) {
-            thread(check_.table(*node, "thread"));
+        if (const toml::table* const table = check_.part(root, thread_table, "thread")) {
+            thread(*table);
         }
         return map_;
     }
@@ -64,10 +64,10 @@ public:
 private:
     // Which axis of the machine it is.
     [[nodiscard]] std::size_t axis_named(const toml::node& node, std::string_view name, std::string_view where) const {
-        const auto found = std::find(axis_names_.begin(), axis_names_.end(), axis_name_of(name));
+        const auto found = std::ranges::find(axis_names_, axis_name_of(name));
         if (found == axis_names_.end()) {
-            check_.fail(node, fmt::format("{}: the machine has no axis {}; its axes are {}", where, in_quotes(name),
-                                          listed(axis_names_)));
+            check_.fail(node, "{}: the machine has no axis {}; its axes are {}", where, in_quotes(name),
+                        listed(axis_names_));
         }
         return static_cast<std::size_t>(found - axis_names_.begin());
     }
@@ -79,7 +79,7 @@ private:
         for (const auto& [key, value] : tables) {
             const std::string where = fmt::format("[{}.{}]", of, key.str());
             if (!out.emplace(axis_named(value, key.str(), where), &value).second) {
-                check_.fail(value, fmt::format("{} is there with a small and with a capital letter; give one", where));
+                check_.fail(value, "{} is there with a small and with a capital letter; give one", where);
             }
         }
         return out;
@@ -95,9 +95,9 @@ private:
         for (std::size_t k = 0; k < axis_names_.size(); ++k) { // in the machine's order, and with it the bits
             const auto given = axes.find(k);
             if (given == axes.end()) {
-                check_.fail_file(fmt::format("there is no [axis.{}]; each axis of the machine needs one, with its step "
-                                             "and direction",
-                                             axis_names_[k]));
+                check_.fail_file("there is no [axis.{}]; each axis of the machine needs one, with its step "
+                                 "and direction",
+                                 axis_names_[k]);
             }
             axis(check_.table(*given->second, fmt::format("axis.{}", axis_names_[k])), k);
         }
@@ -111,9 +111,9 @@ private:
         for (const std::string_view key : keys[1]) {
             if (const toml::node* second = table.get(key); second != nullptr && motors.count < 2) {
                 check_.fail(*second,
-                            fmt::format("{} is of a second motor, and axis {} has one; write motors = 2 in the "
-                                        "machine file, or leave it out",
-                                        key, axis_names_[k]));
+                            "{} is of a second motor, and axis {} has one; write motors = 2 in the "
+                            "machine file, or leave it out",
+                            key, axis_names_[k]);
             }
         }
         AxisLines& lines = map_.axis[k];
@@ -132,7 +132,6 @@ private:
     }
 
     void enable(const toml::table& table) {
-        check_.require_known(table, enable_table);
         EnableLine enable;
         check_.take(table, enable_table, "active", enable.active_level);
         enable.line = lines_.output(check_.required(table, "line", "[enable]", GpioMapLines::what), "line of [enable]",
@@ -142,7 +141,6 @@ private:
     }
 
     void brake(const toml::table& table) {
-        check_.require_known(table, brake_table);
         BrakeLine brake;
         check_.take(table, brake_table, "released", brake.released_level);
         brake.line = lines_.output(check_.required(table, "line", "[brake]", GpioMapLines::what), "line of [brake]",
@@ -165,13 +163,13 @@ private:
                                 "the axis whose switch it is, like \"x\"");
             input.axis = static_cast<int>(axis_named(axis, check_.text(axis, "axis"), "axis"));
         } else if (const toml::node* axis = table.get("axis")) {
-            check_.fail(*axis, fmt::format("an input of role {} has no axis; leave axis out", input_roles[kind]));
+            check_.fail(*axis, "an input of role {} has no axis; leave axis out", input_roles[kind]);
         }
         const bool alone = input.role == InputRole::home || input.role == InputRole::probe;
         for (const MappedInput& other : map_.inputs) {
             if (alone && other.role == input.role && other.axis == input.axis) {
-                check_.fail(role, fmt::format("this is the second input of role {}{}; give one", input_roles[kind],
-                                              has_axis ? " of this axis" : ""));
+                check_.fail(role, "this is the second input of role {}{}; give one", input_roles[kind],
+                            has_axis ? " of this axis" : "");
             }
         }
         check_.take(table, map_input_table, "active", input.active_level);
@@ -201,12 +199,12 @@ private:
         const std::string where = fmt::format("[home.{}]", axis_names_[k]);
         const toml::table& table = check_.table(node, fmt::format("home.{}", axis_names_[k]));
         check_.require_known(table, home_table, where);
-        const bool has_switch = std::any_of(map_.inputs.begin(), map_.inputs.end(), [k](const MappedInput& input) {
+        const bool has_switch = std::ranges::any_of(map_.inputs, [k](const MappedInput& input) {
             return input.role == InputRole::home && input.axis == static_cast<int>(k);
         });
         if (!has_switch) {
-            check_.fail(node, fmt::format("{} has no switch; add [[input]] with role = \"home\" and axis = \"{}\"",
-                                          where, axis_names_[k]));
+            check_.fail(node, "{} has no switch; add [[input]] with role = \"home\" and axis = \"{}\"", where,
+                        axis_names_[k]);
         }
         const auto required = [&](std::string_view key, double most = std::numeric_limits<double>::infinity()) {
             const FileKey& row = home_table.row(key);
@@ -226,7 +224,6 @@ private:
     }
 
     void thread(const toml::table& table) {
-        check_.require_known(table, thread_table);
         check_.take(table, thread_table, "priority", map_.thread.priority);
         check_.take(table, thread_table, "spin_us", map_.thread.spin_us);
         check_.take(table, thread_table, "tolerated_late_us", map_.thread.tolerated_late_us);

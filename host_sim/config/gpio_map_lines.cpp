@@ -12,8 +12,7 @@ using namespace hal::gpio;
 std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& node) {
     std::string path = check.text(node, "chip");
     if (path.size() < 2 || path.front() != '/') {
-        check.fail(node,
-                   fmt::format("chip is {}; it must be its whole path, like \"/dev/gpiochip1\"", in_quotes(path)));
+        check.fail(node, "chip is {}; it must be its whole path, like \"/dev/gpiochip1\"", in_quotes(path));
     }
     return path;
 }
@@ -21,8 +20,7 @@ std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& 
 std::string GpioMapLines::name(const toml::node& node, std::string_view key) const {
     std::string name = check_.text(node, key);
     if (const double longest = line_table.row("name").high; static_cast<double>(name.size()) > longest) {
-        check_.fail(node,
-                    fmt::format("{} is {}; names of lines have at most {} letters", key, in_quotes(name), longest));
+        check_.fail(node, "{} is {}; names of lines have at most {} letters", key, in_quotes(name), longest);
     }
     return name;
 }
@@ -35,9 +33,9 @@ GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_vi
     Wanted line = wanted_line(node, key);
     if (line.chip.empty()) {
         check_.fail(node,
-                    fmt::format("{} names no chip; write it as {{ chip = \"/dev/gpiochip0\", name = ... }}, or name "
-                                "the chip of all lines, chip = \"/dev/gpiochip0\" in [lines]",
-                                key));
+                    "{} names no chip; write it as {{ chip = \"/dev/gpiochip0\", name = ... }}, or name "
+                    "the chip of all lines, chip = \"/dev/gpiochip0\" in [lines]",
+                    key);
     }
     return line;
 }
@@ -54,7 +52,7 @@ GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::stri
     }
     const toml::table* const table = node.as_table();
     if (table == nullptr) {
-        check_.fail(node, fmt::format("{} must be {}", key, what));
+        check_.fail(node, "{} must be {}", key, what);
     }
     check_.require_known(*table, line_table, key);
     if (const toml::node* given = table->get("chip")) {
@@ -67,7 +65,7 @@ GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::stri
         wanted.line.name = name(*given, "name");
     }
     if (wanted.line.name.empty() && !wanted.line.offset) {
-        check_.fail(node, fmt::format("{} has neither offset nor name; give one of both, or both", key));
+        check_.fail(node, "{} has neither offset nor name; give one of both, or both", key);
     }
     return wanted;
 }
@@ -85,9 +83,9 @@ void GpioMapLines::require_unused(const toml::node& node, std::string_view key, 
         const auto [before, unused] = used_.emplace(std::pair(line.chip, way), std::string(key));
         if (!unused) {
             check_.fail(node,
-                        fmt::format("{} is {} of {}, which is {} already; each needs a line of its own (inputs may "
-                                    "share one, which each of them then names alike)",
-                                    key, way, line.chip, before->second));
+                        "{} is {} of {}, which is {} already; each needs a line of its own (inputs may "
+                        "share one, which each of them then names alike)",
+                        key, way, line.chip, before->second);
         }
     }
 }
@@ -106,8 +104,7 @@ template <class Request>
 LineBit GpioMapLines::add(const toml::node& node, std::size_t chip, std::vector<Request>& requests,
                           const Request& request) const {
     if (requests.size() == most_lines || chip > UINT8_MAX) {
-        check_.fail(node,
-                    fmt::format("this is more than {} lines of {}; leave some out", most_lines, chips_[chip].chip));
+        check_.fail(node, "this is more than {} lines of {}; leave some out", most_lines, chips_[chip].chip);
     }
     requests.push_back(request);
     return {static_cast<std::uint8_t>(chip), static_cast<std::uint8_t>(requests.size() - 1)};
@@ -125,9 +122,10 @@ LineBit GpioMapLines::input(const toml::node& node, std::string_view key, Bias b
     for (const Input& other : inputs_) {
         if (other.wanted.chip == line.chip && other.wanted.line == line.line) {
             if (other.bias != bias) {
-                check_.fail(node, fmt::format("{} shares its line with another input, and has another bias; a line has "
-                                              "one bias",
-                                              key));
+                check_.fail(node,
+                            "{} shares its line with another input, and has another bias; a line has "
+                            "one bias",
+                            key);
             }
             return other.bit;
         }

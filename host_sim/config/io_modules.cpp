@@ -30,7 +30,7 @@ IoModule IoModules::read(const toml::table& table) const {
     try {
         module.address = parse_drive_address(check_.text(address, "address"));
     } catch (const AddressError& error) {
-        check_.fail(address, fmt::format("address: {}", error.what()));
+        check_.fail(address, "address: {}", error.what());
     }
     check_.take(table, module_table, "response_timeout_ms", module.answer_ms);
     return module;
@@ -42,22 +42,23 @@ void IoModules::require_own_place(const toml::table& table, const IoModule& modu
     for (const IoModule& other : modules_) {
         hal::modbus::LinkAddress same_unit = other.address.link;
         if (other.name == module.name) {
-            check_.fail(table, fmt::format("this is the second module {}; give each a name of its own",
-                                           in_quotes(module.name)));
+            check_.fail(table, "this is the second module {}; give each a name of its own", in_quotes(module.name));
         }
         if (!same_unit.same_wire(link)) {
             continue;
         }
         if (same_unit.unit == link.unit) {
-            check_.fail(table, fmt::format("module {} has the address of module {}; give it another unit, or name one "
-                                           "of both alone",
-                                           in_quotes(module.name), in_quotes(other.name)));
+            check_.fail(table,
+                        "module {} has the address of module {}; give it another unit, or name one "
+                        "of both alone",
+                        in_quotes(module.name), in_quotes(other.name));
         }
         same_unit.unit = link.unit;
         if (same_unit != link) {
-            check_.fail(table, fmt::format("module {} is on the line of module {}, with another baud, parity or stop; "
-                                           "a line has one of each",
-                                           in_quotes(module.name), in_quotes(other.name)));
+            check_.fail(table,
+                        "module {} is on the line of module {}, with another baud, parity or stop; "
+                        "a line has one of each",
+                        in_quotes(module.name), in_quotes(other.name));
         }
     }
 }
@@ -68,7 +69,7 @@ bool IoModules::is_named(const toml::table& table, std::string_view where) const
         named = named == nullptr ? table.get(key) : named;
     }
     if (named != nullptr && (table.contains("line") || table.contains("bias"))) {
-        check_.fail(*named, fmt::format("{} names a line and a module; leave one out", where));
+        check_.fail(*named, "{} names a line and a module; leave one out", where);
     }
     return named != nullptr;
 }
@@ -81,8 +82,8 @@ std::size_t IoModules::module_of(const toml::table& table, const std::string& wh
             return i;
         }
     }
-    check_.fail(node, fmt::format("{} names module {}, and there is no [[module]] with name = \"{}\"; add it", where,
-                                  in_quotes(name), name));
+    check_.fail(node, "{} names module {}, and there is no [[module]] with name = \"{}\"; add it", where,
+                in_quotes(name), name);
 }
 
 int IoModules::address(const toml::table& table, std::string_view key, const std::string& where) const {
@@ -96,9 +97,9 @@ SwitchedCoil IoModules::coil(const toml::table& table, const std::string& where,
     const auto [before, unused] = used_.emplace(std::tuple(coil.module, coil.address), where);
     if (!unused) {
         check_.fail(*table.get("coil"),
-                    fmt::format("{} is coil {} of module {}, which is {} already; each needs a "
-                                "coil of its own",
-                                where, coil.address, in_quotes(modules_[coil.module].name), before->second));
+                    "{} is coil {} of module {}, which is {} already; each needs a "
+                    "coil of its own",
+                    where, coil.address, in_quotes(modules_[coil.module].name), before->second);
     }
     return coil;
 }
@@ -107,7 +108,7 @@ SensedBit IoModules::bit(const toml::table& table, const std::string& where, boo
     using hal::modbus::BitTable;
     const toml::node* const coil = table.get("coil");
     if (coil != nullptr && table.contains("input")) {
-        check_.fail(*coil, fmt::format("{} names an input and a coil; leave one out", where));
+        check_.fail(*coil, "{} names an input and a coil; leave one out", where);
     }
     return {module_of(table, where), coil != nullptr ? BitTable::coils : BitTable::inputs,
             address(table, coil != nullptr ? "coil" : "input", where), active_level};

@@ -52,7 +52,7 @@ struct MachineDescription {
     PerAxis<std::uint64_t> axis_line{};
 
     [[nodiscard]] bool has_drives() const noexcept {
-        return std::any_of(drive.begin(), drive.end(), [](const std::string& address) { return !address.empty(); });
+        return std::ranges::any_of(drive, [](const std::string& address) { return !address.empty(); });
     }
 };
 

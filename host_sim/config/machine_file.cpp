@@ -62,8 +62,8 @@ private:
     [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const {
         const double value = check_.finite(node, key);
         if (value < range.low || value > range.high) {
-            check_.fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low,
-                                          range.high, range.unit));
+            check_.fail(node, "{} is {}; it must lie between {} and {} {}", key, value, range.low, range.high,
+                        range.unit);
         }
         return value;
     }
@@ -72,8 +72,8 @@ private:
     [[nodiscard]] bool is_first(const toml::node& node, const FileKey& row) const {
         const std::string name = check_.text(node, row.key);
         if (name != row.names[0] && name != row.names[1]) {
-            check_.fail(node, fmt::format("{} is {}; it must be '{}' or '{}'", row.key, in_quotes(name), row.names[0],
-                                          row.names[1]));
+            check_.fail(node, "{} is {}; it must be '{}' or '{}'", row.key, in_quotes(name), row.names[0],
+                        row.names[1]);
         }
         return name == row.names[0];
     }
@@ -93,8 +93,8 @@ private:
                 if (const toml::node* node = table.get(row.key)) {
                     out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
                 } else if (row.without == WithoutKey::refused) {
-                    check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
-                                                   row.low, row.high, row.unit));
+                    check_.fail(table, "{} has no {}; add a number between {} and {} {}", where, row.key, row.low,
+                                row.high, row.unit);
                 }
             });
         }
@@ -118,12 +118,11 @@ private:
     }
 
     void step(const toml::table& root, StepSettings& settings) const {
-        const toml::node* node = root.get("step");
-        if (node == nullptr) {
+        const toml::table* const part = check_.part(root, step_line_table, "step");
+        if (part == nullptr) {
             return;
         }
-        const toml::table& table = check_.table(*node, "step");
-        check_.require_known(table, step_line_table);
+        const toml::table& table = *part;
         const toml::node* engine = table.get("engine");
         const bool intervals = engine == nullptr || is_first(*engine, step_line_table.row("engine"));
         settings.tick_us = intervals ? 0.0 : 10.0;
@@ -133,8 +132,7 @@ private:
             }
             settings.tick_us = check_.finite(*tick, "tick_us");
             if (StepTiming::make({.tick_us = settings.tick_us}).error() != Error::none || settings.tick_us == 0.0) {
-                check_.fail(*tick, fmt::format("tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000",
-                                               settings.tick_us));
+                check_.fail(*tick, "tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000", settings.tick_us);
             }
         }
         for (const StepTime& time : step_times) {
@@ -152,7 +150,7 @@ private:
             const WholeRange range = TomlChecker::whole_range(axis_table.row("motors"));
             const auto value = TomlChecker::whole_of(*count);
             if (!value || *value < range.low || *value > range.high) {
-                check_.fail(*count, fmt::format("motors must be {} or {}", range.low, range.high));
+                check_.fail(*count, "motors must be {} or {}", range.low, range.high);
             }
             motors.count = static_cast<int>(*value);
         }
@@ -167,11 +165,10 @@ private:
             return;
         }
         if (each->size() != static_cast<std::size_t>(motors.count)) {
-            check_.fail(
-                *invert,
-                fmt::format("invert_direction has {} values; it must have one for each of {} motors, or be true or "
-                            "false for all",
-                            each->size(), motors.count));
+            check_.fail(*invert,
+                        "invert_direction has {} values; it must have one for each of {} motors, or be true or "
+                        "false for all",
+                        each->size(), motors.count);
         }
         for (std::size_t i = 0; i < each->size(); ++i) {
             motors.invert_direction[i] = check_.flag((*each)[i], "invert_direction");
@@ -188,8 +185,8 @@ private:
             check_.fail(*node, "axis must be one to six tables, each with [[axis]] above it");
         }
         if (array->size() > static_cast<std::size_t>(max_axes)) {
-            check_.fail((*array)[static_cast<std::size_t>(max_axes)],
-                        fmt::format("there are {} axes; a machine has one to {}", array->size(), max_axes));
+            check_.fail((*array)[static_cast<std::size_t>(max_axes)], "there are {} axes; a machine has one to {}",
+                        array->size(), max_axes);
         }
         machine.settings.axes = static_cast<int>(array->size());
         for (std::size_t k = 0; k < array->size(); ++k) {
@@ -208,13 +205,12 @@ private:
             check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
         }
         const std::string letter = axis_name_of(check_.text(*name, "name"));
-        if (std::find(std::begin(axis_name_letters), std::end(axis_name_letters), letter) ==
-            std::end(axis_name_letters)) {
-            check_.fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
+        if (std::ranges::find(axis_name_letters, letter) == std::end(axis_name_letters)) {
+            check_.fail(*name, "axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter));
         }
         for (std::size_t j = 0; j < k; ++j) {
             if (machine.axis_name[j] == letter) {
-                check_.fail(*name, fmt::format("there are two axes '{}'; each needs a name of its own", letter));
+                check_.fail(*name, "there are two axes '{}'; each needs a name of its own", letter);
             }
         }
         const std::string where = fmt::format("axis {}", letter);
@@ -254,7 +250,7 @@ private:
             try {
                 static_cast<void>(parse_drive_address(address));
             } catch (const AddressError& error) {
-                check_.fail(*drive, fmt::format("drive: {}", error.what()));
+                check_.fail(*drive, "drive: {}", error.what());
             }
         }
     }
@@ -268,15 +264,11 @@ private:
         }
         const toml::node& given = zone != nullptr ? *zone : *velocity;
         if (zone == nullptr || velocity == nullptr) {
-            check_.fail(
-                given,
-                fmt::format("{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where));
+            check_.fail(given, "{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where);
         }
         if (!travel) {
-            check_.fail(
-                given,
-                fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
-                            where));
+            check_.fail(given, "{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
+                        where);
         }
         axis.travel_low_mm = travel->low;
         axis.travel_high_mm = travel->high;
@@ -292,8 +284,8 @@ private:
             check_.fail(node, "travel_mm must lie within +-1048576 mm");
         }
         if (!(travel.low < travel.high)) {
-            check_.fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
-                                          travel.high));
+            check_.fail(node, "travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
+                        travel.high);
         }
         if (std::fmax(-travel.low, travel.high) * steps_per_mm > counter_limit) {
             check_.fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
@@ -325,7 +317,7 @@ MachineDescription parse_machine(std::string_view text, const std::string& file,
         changed.name += fmt::format(", with {}", fmt::join(settings, " ")); // the page of a run shows it
         return changed;
     } catch (const InputError& error) {
-        throw UsageError(fmt::format("--set {}: {}", fmt::join(settings, " --set "), error.what()));
+        throw UsageError("--set {}: {}", fmt::join(settings, " --set "), error.what());
     }
 }
 

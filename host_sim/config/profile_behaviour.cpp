@@ -18,21 +18,33 @@ WholeRange mask_range(const RegisterField& field) {
     return {0, field.width_bits == 16 ? 0xFFFF : 0xFFFFFFFF};
 }
 
+/// A key that is of a field with this role.
+void require_written(const TomlChecker& check, const toml::node& node, const DriveProfile& profile, FieldRole role,
+                     std::string_view key) {
+    const RegisterField* const field = profile.field_of(role);
+    if (field == nullptr || !field->writable()) {
+        check.fail(node, "{} needs a field that is written, with role = \"{}\"", key,
+                   field_role_names[static_cast<std::size_t>(role) - 1]);
+    }
+}
+
+/// The mask of a table, all bits where it has none. @param range  of the field
+std::uint32_t mask_of(const TomlChecker& check, const toml::table& table, const WholeRange& range) {
+    const toml::node* const mask = table.get("mask");
+    return static_cast<std::uint32_t>(mask != nullptr ? check.whole(*mask, "mask", {1, range.high}) : range.high);
+}
+
 FieldTest read_test(const TomlChecker& check, const toml::table& table, const DriveProfile& profile,
                     std::string_view where) {
     FieldTest test;
     test.field = named_field(check, check.required(table, "field", where, "the name of a field"), "field", profile,
                              FieldUse::read);
     const WholeRange range = mask_range(profile.fields[test.field]);
-    test.mask = static_cast<std::uint32_t>(range.high);
-    if (const toml::node* mask = table.get("mask")) {
-        test.mask = static_cast<std::uint32_t>(check.whole(*mask, "mask", {1, range.high}));
-    }
+    test.mask = mask_of(check, table, range);
     const toml::node& value = check.required(table, "value", where, "what the bits of the mask must be");
     test.value = static_cast<std::uint32_t>(check.whole(value, "value", range));
     if ((test.value & ~test.mask) != 0) {
-        check.fail(value, fmt::format("value 0x{:X} has bits outside the mask 0x{:X}; it can never be", test.value,
-                                      test.mask));
+        check.fail(value, "value 0x{:X} has bits outside the mask 0x{:X}; it can never be", test.value, test.mask);
     }
     return test;
 }
@@ -46,7 +58,7 @@ std::optional<FieldTest> optional_test(const TomlChecker& check, const toml::tab
     const std::string where = fmt::format("{} in [motion]", key);
     const toml::table* const table = node->as_table();
     if (table == nullptr) {
-        check.fail(*node, fmt::format("{} must be like {{field = \"status\", mask = 0x0400, value = 0x0400}}", key));
+        check.fail(*node, "{} must be like {{field = \"status\", mask = 0x0400, value = 0x0400}}", key);
     }
     check.require_known(*table, test_table, where);
     return read_test(check, *table, profile, where);
@@ -57,7 +69,7 @@ CommandStep read_step(const TomlChecker& check, const toml::node& node, const Dr
     const std::string where = fmt::format("a step of {}", command);
     const toml::table* const table = node.as_table();
     if (table == nullptr) {
-        check.fail(node, fmt::format("{} must be like {{field = \"control\", value = 0x000F}}", where));
+        check.fail(node, "{} must be like {{field = \"control\", value = 0x000F}}", where);
     }
     check.require_known(*table, step_table, where);
     CommandStep step;
@@ -65,14 +77,10 @@ CommandStep read_step(const TomlChecker& check, const toml::node& node, const Dr
                              FieldUse::write);
     const RegisterField& field = profile.fields[step.field];
     if (field.flash) {
-        check.fail(*table, fmt::format("field {} wears its flash with every write; no command may do so",
-                                       in_quotes(field.name)));
+        check.fail(*table, "field {} wears its flash with every write; no command may do so", in_quotes(field.name));
     }
     const WholeRange range = mask_range(field);
-    step.mask = static_cast<std::uint32_t>(range.high);
-    if (const toml::node* mask = table->get("mask")) {
-        step.mask = static_cast<std::uint32_t>(check.whole(*mask, "mask", {1, range.high}));
-    }
+    step.mask = mask_of(check, *table, range);
     check.take(*table, step_table, "kind", step.kind);
     const toml::node* const value = table->get("value");
     if (step.kind == StepKind::toggle) {
@@ -83,13 +91,12 @@ CommandStep read_step(const TomlChecker& check, const toml::node& node, const Dr
         step.value = static_cast<std::uint32_t>(
             check.whole(check.required(*table, "value", where, "what the bits of the mask become"), "value", range));
         if ((step.value & ~step.mask) != 0) {
-            check.fail(*value, fmt::format("value 0x{:X} has bits outside the mask 0x{:X}; widen the mask", step.value,
-                                           step.mask));
+            check.fail(*value, "value 0x{:X} has bits outside the mask 0x{:X}; widen the mask", step.value, step.mask);
         }
     }
     check.take(*table, step_table, "duration_ms", step.duration_ms);
     if (step.kind == StepKind::pulse && step.duration_ms == 0) {
-        check.fail(*table, fmt::format("{} is a pulse and must have a duration_ms of 1 or more", where));
+        check.fail(*table, "{} is a pulse and must have a duration_ms of 1 or more", where);
     }
     return step;
 }
@@ -118,7 +125,7 @@ void read_commands(const TomlChecker& check, const toml::table& root, DriveProfi
         const auto index = check.value<std::size_t>(name, command_table.row("name"));
         std::vector<CommandStep>& steps = profile.commands[index];
         if (!steps.empty()) {
-            check.fail(name, fmt::format("there are two commands '{}'; write one", command_names[index]));
+            check.fail(name, "there are two commands '{}'; write one", command_names[index]);
         }
         constexpr std::string_view form = "a list like [{field = \"control\", value = 0x000F}]";
         const toml::node& list = check.required(*table, "steps", "[[command]]", form);
@@ -126,25 +133,21 @@ void read_commands(const TomlChecker& check, const toml::table& root, DriveProfi
             steps.push_back(read_step(check, entry, profile, command_names[index]));
         }
         if (steps.empty()) {
-            check.fail(list,
-                       fmt::format("command '{}' has no steps; give it one, or leave it out", command_names[index]));
+            check.fail(list, "command '{}' has no steps; give it one, or leave it out", command_names[index]);
         }
     }
 }
 
 void read_motion(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
-    const toml::node* const node = root.get("motion");
-    if (node == nullptr) {
+    const toml::table* const part = check.part(root, motion_table, "motion");
+    if (part == nullptr) {
         return;
     }
-    const toml::table& table = check.table(*node, "motion");
-    check.require_known(table, motion_table);
+    const toml::table& table = *part;
     const RegisterField* const mode = profile.field_of(FieldRole::mode);
     for (const std::string_view key : {"stream_mode", "homing_mode"}) {
         if (const toml::node* value = table.get(key)) {
-            if (mode == nullptr || !mode->writable()) {
-                check.fail(*value, fmt::format("{} needs a field that is written, with role = \"mode\"", key));
-            }
+            require_written(check, *value, profile, FieldRole::mode, key);
             (key == "stream_mode" ? profile.stream_mode : profile.homing_mode) =
                 check.whole(*value, key, {mode->lowest, mode->highest});
         }
@@ -156,27 +159,19 @@ void read_motion(const TomlChecker& check, const toml::table& root, DriveProfile
     if (const toml::node* window = table.get("following_error_window_counts")) {
         profile.following_error_window_counts =
             check.value<std::int64_t>(*window, motion_table.row("following_error_window_counts"));
-        const RegisterField* const field = profile.field_of(FieldRole::following_error_window);
-        if (field == nullptr || !field->writable()) {
-            check.fail(*window, "following_error_window_counts needs a field that is written, with role = "
-                                "\"following_error_window\"");
-        }
+        require_written(check, *window, profile, FieldRole::following_error_window, "following_error_window_counts");
     }
 }
 
 void read_watchdog(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
-    const toml::node* const node = root.get("watchdog");
-    if (node == nullptr) {
+    const toml::table* const part = check.part(root, watchdog_table, "watchdog");
+    if (part == nullptr) {
         return;
     }
-    const toml::table& table = check.table(*node, "watchdog");
-    check.require_known(table, watchdog_table);
+    const toml::table& table = *part;
     if (const toml::node* timeout = table.get("timeout_ms")) {
         profile.watchdog_timeout_ms = check.value<std::uint32_t>(*timeout, watchdog_table.row("timeout_ms"));
-        const RegisterField* const field = profile.field_of(FieldRole::watchdog);
-        if (field == nullptr || !field->writable()) {
-            check.fail(*timeout, "timeout_ms needs a field that is written, with role = \"watchdog\"");
-        }
+        require_written(check, *timeout, profile, FieldRole::watchdog, "timeout_ms");
     }
     check.take(table, watchdog_table, "reaction", profile.watchdog_reaction);
 }
@@ -190,9 +185,9 @@ void read_init(const TomlChecker& check, const toml::table& root, DriveProfile& 
         const RegisterField& field = profile.fields[initial.field];
         if (field.flash && !field.readable()) {
             check.fail(*table,
-                       fmt::format("field {} wears its flash and cannot be read, so nobody knows whether it must "
-                                   "be written; leave it out",
-                                   in_quotes(field.name)));
+                       "field {} wears its flash and cannot be read, so nobody knows whether it must "
+                       "be written; leave it out",
+                       in_quotes(field.name));
         }
         initial.value = check.whole(check.required(*table, "value", "[[init]]", "what the register gets"), "value",
                                     {field.lowest, field.highest});

@@ -70,7 +70,7 @@ void read_exchanges(const TomlChecker& check, const toml::node& node, LinkSettin
     for (const toml::node& entry : check.array(node, "exchange_ms", form)) {
         const toml::array* const pair = entry.as_array();
         if (pair == nullptr || pair->size() != 2) {
-            check.fail(entry, fmt::format("exchange_ms must be {}", form));
+            check.fail(entry, "exchange_ms must be {}", form);
         }
         link.exchanges.push_back({static_cast<int>(check.whole((*pair)[0], "the baud rate",
                                                                TomlChecker::whole_range(link_table.row("baud")))),
@@ -95,7 +95,7 @@ void read_scale(const TomlChecker& check, const toml::table& table, RegisterFiel
         constexpr std::string_view form = "two whole numbers: register = physical * first / second";
         const toml::array& pair = check.array(*node, "scale", form);
         if (pair.size() != 2) {
-            check.fail(*node, fmt::format("scale must be {}", form));
+            check.fail(*node, "scale must be {}", form);
         }
         field.scale_numerator = check.whole(pair[0], "the first number of scale", {-largest, largest});
         field.scale_denominator = check.whole(pair[1], "the second number of scale", {1, largest});
@@ -110,7 +110,7 @@ void read_scale(const TomlChecker& check, const toml::table& table, RegisterFiel
         constexpr std::string_view form = "the lowest and the highest value of the register";
         const toml::array& pair = check.array(*node, "clamp", form);
         if (pair.size() != 2) {
-            check.fail(*node, fmt::format("clamp must be {}", form));
+            check.fail(*node, "clamp must be {}", form);
         }
         const WholeRange range{field.lowest, field.highest};
         field.lowest = check.whole(pair[0], "the first number of clamp", range);
@@ -136,12 +136,12 @@ void read_name(const TomlChecker& check, const toml::table& table, const DrivePr
         field.unit = role_units[index + 1];
     } else {
         field.name = check.text(node, "name");
-        if (std::find(field_role_names.begin(), field_role_names.end(), field.name) != field_role_names.end()) {
-            check.fail(node, fmt::format("{} is a role; write role = \"{}\"", in_quotes(field.name), field.name));
+        if (std::ranges::find(field_role_names, field.name) != field_role_names.end()) {
+            check.fail(node, "{} is a role; write role = \"{}\"", in_quotes(field.name), field.name);
         }
     }
     if (profile.index_of(field.name) != no_field) {
-        check.fail(node, fmt::format("there are two fields {}; each needs a name of its own", in_quotes(field.name)));
+        check.fail(node, "there are two fields {}; each needs a name of its own", in_quotes(field.name));
     }
 }
 
@@ -155,9 +155,9 @@ void refuse_overlap(const TomlChecker& check, const toml::table& table, const Dr
         const bool both_written = field.writable() && other.writable();
         if (!apart && (both_read || both_written)) {
             check.fail(table,
-                       fmt::format("fields {} and {} share registers; give each its own, or one access = \"read\" "
-                                   "and the other access = \"write\"",
-                                   in_quotes(other.name), in_quotes(field.name)));
+                       "fields {} and {} share registers; give each its own, or one access = \"read\" "
+                       "and the other access = \"write\"",
+                       in_quotes(other.name), in_quotes(field.name));
         }
     }
 }
@@ -185,8 +185,8 @@ RegisterField read_field(const TomlChecker& check, const toml::table& table, con
         field.unit = check.value<PhysicalUnit>(*node, field_table.row("unit"));
         const PhysicalUnit expected = role_units[static_cast<std::size_t>(field.role)];
         if (field.role != FieldRole::none && field.unit != expected) {
-            check.fail(*node, fmt::format("unit of role \"{}\" must be \"{}\"; the scale leads from it to the register",
-                                          field.name, unit_names[static_cast<std::size_t>(expected)]));
+            check.fail(*node, "unit of role \"{}\" must be \"{}\"; the scale leads from it to the register", field.name,
+                       unit_names[static_cast<std::size_t>(expected)]);
         }
     }
     check.take(table, field_table, "access", field.access);
@@ -234,15 +234,16 @@ void require_frame(const TomlChecker& check, const toml::table& table, const Reg
                    const LinkSettings& link) {
     const auto registers = static_cast<int>(field.registers());
     if (field.writable() && registers > 1 && !link.function_write) {
-        check.fail(table, fmt::format("field {} has {} registers, which function 16 alone writes at once, and "
-                                      "`functions` of [link] does not have it; say access = \"read\", or leave it out",
-                                      in_quotes(field.name), registers));
+        check.fail(table,
+                   "field {} has {} registers, which function 16 alone writes at once, and "
+                   "`functions` of [link] does not have it; say access = \"read\", or leave it out",
+                   in_quotes(field.name), registers);
     }
     const bool reads = field.readable() && registers > link.most_read_registers;
     if (reads || (field.writable() && registers > link.most_write_registers)) {
-        check.fail(table, fmt::format("field {} has {} registers; by [link] the drive {} at most {} in a frame",
-                                      in_quotes(field.name), registers, reads ? "sends" : "takes",
-                                      reads ? link.most_read_registers : link.most_write_registers));
+        check.fail(table, "field {} has {} registers; by [link] the drive {} at most {} in a frame",
+                   in_quotes(field.name), registers, reads ? "sends" : "takes",
+                   reads ? link.most_read_registers : link.most_write_registers);
     }
 }
 
@@ -263,8 +264,8 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
         group.use = check.value<GroupUse>(check.required(*table, "use", "[[group]]", R"("target" or "status")"),
                                           group_table.row("use"));
         if (profile.group_for(group.use) != nullptr) {
-            check.fail(*table, fmt::format("there are two groups with use = \"{}\"; write one",
-                                           use_names[static_cast<std::size_t>(group.use)]));
+            check.fail(*table, "there are two groups with use = \"{}\"; write one",
+                       use_names[static_cast<std::size_t>(group.use)]);
         }
         const bool written = group.use == GroupUse::target;
         const toml::node& list = check.required(*table, "fields", "[[group]]", "a list of names of fields");
@@ -274,16 +275,15 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             const RegisterField& field = profile.fields[index];
             const std::size_t next = group.fields.empty() ? field.address : group.address + group.registers;
             if (field.address != next) {
-                check.fail(entry,
-                           fmt::format("field {} begins at {}, but the group goes on at {}; one frame has no gaps",
-                                       in_quotes(field.name), field.address + profile.link.address_base,
-                                       next + static_cast<std::size_t>(profile.link.address_base)));
+                check.fail(entry, "field {} begins at {}, but the group goes on at {}; one frame has no gaps",
+                           in_quotes(field.name), field.address + profile.link.address_base,
+                           next + static_cast<std::size_t>(profile.link.address_base));
             }
             if (written && field.flash) {
                 check.fail(entry,
-                           fmt::format("field {} wears its flash with every write, and a target group is written "
-                                       "again and again; leave it out",
-                                       in_quotes(field.name)));
+                           "field {} wears its flash with every write, and a target group is written "
+                           "again and again; leave it out",
+                           in_quotes(field.name));
             }
             group.address = group.fields.empty() ? field.address : group.address;
             group.registers += field.registers();
@@ -294,7 +294,7 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             check.fail(list, "a target group is written by function 16, and `functions` of [link] does not have it");
         }
         if (group.fields.empty() || group.registers > static_cast<std::size_t>(most)) {
-            check.fail(list, fmt::format("the group has {} registers; it must have 1 to {}", group.registers, most));
+            check.fail(list, "the group has {} registers; it must have 1 to {}", group.registers, most);
         }
         profile.groups.push_back(std::move(group));
     }
@@ -309,9 +309,8 @@ FieldIndex named_field(const TomlChecker& check, const toml::node& node, std::st
     const FieldIndex index = check.choice(node, key, names);
     const RegisterField& field = profile.fields[index];
     if (use == FieldUse::read ? !field.readable() : !field.writable()) {
-        check.fail(node, fmt::format("field {} cannot be {}: its access is \"{}\"", in_quotes(field.name),
-                                     use == FieldUse::read ? "read" : "written",
-                                     access_names[static_cast<std::size_t>(field.access)]));
+        check.fail(node, "field {} cannot be {}: its access is \"{}\"", in_quotes(field.name),
+                   use == FieldUse::read ? "read" : "written", access_names[static_cast<std::size_t>(field.access)]);
     }
     return index;
 }

@@ -7,7 +7,6 @@
 #include "host_sim/config/profile_sections.hpp"
 
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -19,7 +18,7 @@ std::string name_of_profile(const TomlChecker& check, const toml::table& root) {
     const toml::node& node = check.required(root, "name", "the profile", "a text like \"maker-mode\"");
     std::string name = check.text(node, "name");
     if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
-        check.fail(node, fmt::format("name is {}; it must be of small letters, digits and -", in_quotes(name)));
+        check.fail(node, "name is {}; it must be of small letters, digits and -", in_quotes(name));
     }
     return name;
 }
@@ -28,9 +27,8 @@ void require_role(const TomlChecker& check, const DriveProfile& profile, FieldRo
                   bool written) {
     const RegisterField* const field = profile.field_of(role);
     if (field == nullptr || (written ? !field->writable() : !field->readable())) {
-        check.fail_file(fmt::format("stream = \"{}\" needs a field that is {}, with role = \"{}\"",
-                                    stream_names[static_cast<std::size_t>(profile.stream)],
-                                    written ? "written" : "read", name));
+        check.fail_file("stream = \"{}\" needs a field that is {}, with role = \"{}\"",
+                        stream_names[static_cast<std::size_t>(profile.stream)], written ? "written" : "read", name);
     }
 }
 
@@ -43,12 +41,12 @@ void require_speed(const TomlChecker& check, const DriveProfile& profile) {
     for (const auto& [command, name] : spindle) {
         const std::vector<CommandStep>& steps = profile.steps_of(command);
         if (steps.empty() && command != DriveCommand::reverse) {
-            check.fail_file(fmt::format(
-                "stream = \"speed\" needs the command {0}; write [[command]] with name = \"{0}\" and its steps", name));
+            check.fail_file(
+                "stream = \"speed\" needs the command {0}; write [[command]] with name = \"{0}\" and its steps", name);
         }
         for (const CommandStep& step : steps) {
             if (step.kind != StepKind::level) {
-                check.fail_file(fmt::format("a step of {} must be of kind \"level\" with stream = \"speed\"", name));
+                check.fail_file("a step of {} must be of kind \"level\" with stream = \"speed\"", name);
             }
         }
     }
@@ -81,8 +79,7 @@ void require_complete(const TomlChecker& check, const DriveProfile& profile) {
          {DriveCommand::quick_stop, "quick_stop"}}};
     for (const auto& [command, name] : needed) {
         if (profile.steps_of(command).empty()) {
-            check.fail_file(
-                fmt::format("there is no command {0}; write [[command]] with name = \"{0}\" and its steps", name));
+            check.fail_file("there is no command {0}; write [[command]] with name = \"{0}\" and its steps", name);
         }
     }
     if (profile.stream == StreamWay::blocks) {

@@ -8,6 +8,7 @@
 #include "splinefeed/hal/gpio/line_map.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -90,12 +91,8 @@ struct ProgramLines {
 private:
     template <class Numbered>
     [[nodiscard]] static const Numbered* of_number(const std::vector<Numbered>& all, int number) noexcept {
-        for (const Numbered& one : all) {
-            if (one.number == number) {
-                return &one;
-            }
-        }
-        return nullptr;
+        const auto found = std::ranges::find(all, number, &Numbered::number);
+        return found != all.end() ? &*found : nullptr;
     }
 };
 

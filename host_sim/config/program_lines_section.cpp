@@ -65,7 +65,7 @@ DigitalOutput digital_output(const TomlChecker& check, GpioMapLines& lines, IoMo
     DigitalOutput output;
     output.number = check.value<int>(number, output_table.row("number"));
     if (before.output(output.number) != nullptr) {
-        check.fail(number, fmt::format("this is the second output {}; give each a number of its own", output.number));
+        check.fail(number, "this is the second output {}; give each a number of its own", output.number);
     }
     check.take(table, output_table, "safe", output.safe_on);
     output.line = program_switch(check, lines, modules, table, fmt::format("output {}", output.number), output.safe_on);
@@ -90,7 +90,7 @@ DigitalInput digital_input(const TomlChecker& check, GpioMapLines& lines, const 
     DigitalInput input;
     input.number = check.value<int>(number, input_table.row("number"));
     if (before.input(input.number) != nullptr) {
-        check.fail(number, fmt::format("this is the second input {}; give each a number of its own", input.number));
+        check.fail(number, "this is the second input {}; give each a number of its own", input.number);
     }
     const std::string where = fmt::format("input {}", input.number);
     if (modules.is_named(table, where)) {
@@ -108,9 +108,10 @@ std::optional<SpindleLines> spindle_lines(const TomlChecker& check, GpioMapLines
         for (const std::string_view key : {"reverse", "at_speed", "spin_up_s", "spin_down_s"}) {
             if (const toml::node* const node = table.get(key)) {
                 check.attempt([&] {
-                    check.fail(*node, fmt::format("{} is of a spindle on lines; name the line that turns it on, "
-                                                  "enable = {{ line = ... }}, or leave it out",
-                                                  key));
+                    check.fail(*node,
+                               "{} is of a spindle on lines; name the line that turns it on, "
+                               "enable = {{ line = ... }}, or leave it out",
+                               key);
                 });
             }
         }
@@ -160,11 +161,9 @@ ProgramLines read_program_lines(const TomlChecker& check, const toml::table& roo
     GpioMapLines lines(check, chip, out.chips);
     IoModules modules(check, root, out.modules);
     check.attempt([&] {
-        if (const toml::node* const node = root.get("coolant")) {
-            const toml::table& table = check.table(*node, "coolant");
-            check.require_known(table, coolant_table);
-            check.attempt([&] { out.mist = coolant(check, lines, modules, table, "mist"); });
-            check.attempt([&] { out.flood = coolant(check, lines, modules, table, "flood"); });
+        if (const toml::table* const table = check.part(root, coolant_table, "coolant")) {
+            check.attempt([&] { out.mist = coolant(check, lines, modules, *table, "mist"); });
+            check.attempt([&] { out.flood = coolant(check, lines, modules, *table, "flood"); });
         }
     });
     check.attempt([&] {

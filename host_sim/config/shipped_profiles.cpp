@@ -47,8 +47,8 @@ DriveProfile find_profile(const std::string& name_or_file) {
         }
         names.push_back(shipped.name);
     }
-    throw UsageError(fmt::format("there is no profile {} (a file must end in .toml){}", in_quotes(name_or_file),
-                                 suggestion(name_or_file, names)));
+    throw UsageError("there is no profile {} (a file must end in .toml){}", in_quotes(name_or_file),
+                     suggestion(name_or_file, names));
 }
 
 std::string list_profiles() {

@@ -8,7 +8,6 @@
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -22,21 +21,23 @@ SpindleDescription::Vfd read_vfd(const TomlChecker& check, const toml::node& nod
         vfd.address = parse_drive_address(check.text(node, "vfd"));
         vfd.profile = find_profile(vfd.address.profile);
         if (vfd.profile.stream != StreamWay::speed) {
-            check.fail(node, fmt::format("vfd: the profile {} is not of a frequency inverter; give &profile=, one of "
-                                         "`splinefeed drive --list-profiles` that has a spindle speed",
-                                         in_quotes(vfd.profile.name)));
+            check.fail(node,
+                       "vfd: the profile {} is not of a frequency inverter; give &profile=, one of "
+                       "`splinefeed drive --list-profiles` that has a spindle speed",
+                       in_quotes(vfd.profile.name));
         }
         complete_address(vfd.address, vfd.profile);
     } catch (const AddressError& error) {
-        check.fail(node, fmt::format("vfd: {}", error.what()));
+        check.fail(node, "vfd: {}", error.what());
     } catch (const UsageError& error) {
-        check.fail(node, fmt::format("vfd: {}", error.what()));
+        check.fail(node, "vfd: {}", error.what());
     }
     const RegisterField& speed = *vfd.profile.field_of(FieldRole::target_velocity);
     if (raw_of(speed, std::llround(most_hz * (1 << physical_bits))).clamped) {
-        check.fail(node, fmt::format("max_rpm is {:g} Hz by rpm_per_hz, which the register of the profile {} cannot "
-                                     "hold; lower max_rpm, or correct rpm_per_hz",
-                                     most_hz, vfd.profile.name));
+        check.fail(node,
+                   "max_rpm is {:g} Hz by rpm_per_hz, which the register of the profile {} cannot "
+                   "hold; lower max_rpm, or correct rpm_per_hz",
+                   most_hz, vfd.profile.name);
     }
     return vfd;
 }
@@ -44,12 +45,11 @@ SpindleDescription::Vfd read_vfd(const TomlChecker& check, const toml::node& nod
 } // namespace
 
 std::optional<SpindleDescription> read_spindle(const TomlChecker& check, const toml::table& root) {
-    const toml::node* const node = root.get("spindle");
-    if (node == nullptr) {
+    const toml::table* const part = check.part(root, spindle_table, "spindle");
+    if (part == nullptr) {
         return std::nullopt;
     }
-    const toml::table& table = check.table(*node, "spindle");
-    check.require_known(table, spindle_table);
+    const toml::table& table = *part;
     SpindleDescription spindle;
     check.attempt([&] {
         static_cast<void>(

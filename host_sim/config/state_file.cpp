@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace splinefeed::host {
@@ -39,9 +38,9 @@ public:
 
     [[noreturn]] void fail(std::string_view key) const {
         throw InputError(file_, 0,
-                         fmt::format("\"{}\" is missing or wrong; a state file is written by --state, and not by hand. "
-                                     "Remove it to begin with offsets of 0",
-                                     key));
+                         "\"{}\" is missing or wrong; a state file is written by --state, and not by hand. "
+                         "Remove it to begin with offsets of 0",
+                         key);
     }
     [[nodiscard]] double value(const nlohmann::json& json, const char* key) const {
         if (!json.is_number() || !(std::fabs(json.get<double>()) <= largest_mm)) {
@@ -121,7 +120,7 @@ bool is_there(const std::string& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::none) {
-        throw InputError(path, 0, fmt::format("cannot be read: {}; name a file that can be", error.message()));
+        throw InputError(path, 0, "cannot be read: {}; name a file that can be", error.message());
     }
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     if (!std::filesystem::exists(status) && !folder.empty() && !std::filesystem::is_directory(folder, error)) {

@@ -4,7 +4,6 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -24,27 +23,25 @@ void check(const MachineDescription& machine, unsigned k, const StepTiming& timi
     case Error::none: break;
     case Error::step_rate_too_high:
         throw InputError(machine.file, 0,
-                         fmt::format("axis {} makes {:.0f} steps/s at {} mm/s, and its lines carry {:.0f}; lower the "
-                                     "velocity or steps_per_mm, or shorten {} in [step]",
-                                     name, demand.steps_per_s, velocity, timing.most_steps_per_s(),
-                                     timing.grid > 1 ? "tick_us, step_length_us and step_space_us"
-                                                     : "step_length_us and step_space_us"));
+                         "axis {} makes {:.0f} steps/s at {} mm/s, and its lines carry {:.0f}; lower the "
+                         "velocity or steps_per_mm, or shorten {} in [step]",
+                         name, demand.steps_per_s, velocity, timing.most_steps_per_s(),
+                         timing.grid > 1 ? "tick_us, step_length_us and step_space_us"
+                                         : "step_length_us and step_space_us");
     default:
-        throw InputError(
-            machine.file, 0,
-            fmt::format("axis {} needs {:.3f} us from a step to one back, in which {:.0f} steps/s^2 go {:.4f} "
-                        "steps to and fro, and {:.0f} steps; at most 1/64 and 24 are left to it; shorten "
-                        "direction_setup_us and direction_hold_us in [step], or lower the acceleration",
-                        name, turn_us, demand.steps_per_s2, timing.most_left_out(demand.steps_per_s2),
-                        static_cast<double>(timing.turn_gap()) / timing.step_gap()));
+        throw InputError(machine.file, 0,
+                         "axis {} needs {:.3f} us from a step to one back, in which {:.0f} steps/s^2 go {:.4f} "
+                         "steps to and fro, and {:.0f} steps; at most 1/64 and 24 are left to it; shorten "
+                         "direction_setup_us and direction_hold_us in [step], or lower the acceleration",
+                         name, turn_us, demand.steps_per_s2, timing.most_left_out(demand.steps_per_s2),
+                         static_cast<double>(timing.turn_gap()) / timing.step_gap());
     }
     const double in_a_segment = demand.steps_per_s * machine.settings.sample_period_us * 1e-6;
     if (in_a_segment > most_steps_in_a_segment) {
-        throw InputError(
-            machine.file, 0,
-            fmt::format("axis {} makes {:.0f} steps in a sample period; at most {:.0f} are possible; take a "
-                        "shorter sample_period_us",
-                        name, in_a_segment, most_steps_in_a_segment));
+        throw InputError(machine.file, 0,
+                         "axis {} makes {:.0f} steps in a sample period; at most {:.0f} are possible; take a "
+                         "shorter sample_period_us",
+                         name, in_a_segment, most_steps_in_a_segment);
     }
 }
 

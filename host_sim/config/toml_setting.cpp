@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 #include "host_sim/config/axis_name.hpp"
 
 #include <algorithm>
@@ -14,20 +15,8 @@ namespace splinefeed::host {
 
 namespace {
 
-std::vector<std::string_view> parts_of(std::string_view name) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t dot = name.find('.');
-        parts.push_back(name.substr(0, dot));
-        if (dot == std::string_view::npos) {
-            return parts;
-        }
-        name.remove_prefix(dot + 1);
-    }
-}
-
 bool is_word(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     });
 }
@@ -36,7 +25,7 @@ bool is_word(std::string_view text) {
 toml::table value_of(const std::string& setting, const std::string& text) {
     double ignored = 0.0;
     if (const NumberText read = read_number(text, ignored); read == NumberText::out_of_range) {
-        throw UsageError(fmt::format("--set {}: {} {}", in_quotes(setting), text, why_no_number(read)));
+        throw UsageError("--set {}: {} {}", in_quotes(setting), text, why_no_number(read));
     }
     try {
         if (toml::table document = parse_toml("value = " + text + "\n", {}); document.size() == 1) {
@@ -47,9 +36,9 @@ toml::table value_of(const std::string& setting, const std::string& text) {
             return parse_toml("value = \"" + text + "\"\n", {});
         }
     }
-    throw UsageError(fmt::format("--set {}: {} is no value; it must be a number, true, false, a word, a text in "
-                                 "quotes or a list",
-                                 in_quotes(setting), in_quotes(text)));
+    throw UsageError("--set {}: {} is no value; it must be a number, true, false, a word, a text in "
+                     "quotes or a list",
+                     in_quotes(setting), in_quotes(text));
 }
 
 toml::table& axis_of(toml::table& document, const std::string& setting, std::string_view name) {
@@ -63,8 +52,8 @@ toml::table& axis_of(toml::table& document, const std::string& setting, std::str
             }
         }
     }
-    throw UsageError(fmt::format("--set {}: the machine has no axis {}; it has {}", in_quotes(setting), in_quotes(name),
-                                 fmt::join(names, ", ")));
+    throw UsageError("--set {}: the machine has no axis {}; it has {}", in_quotes(setting), in_quotes(name),
+                     fmt::join(names, ", "));
 }
 
 /// The table that has the last part of a name.
@@ -77,8 +66,8 @@ toml::table& table_for(toml::table& document, const std::string& setting, const 
     }
     toml::node* const node = document.get(parts[0]);
     if (node != nullptr && node->as_table() == nullptr) {
-        throw UsageError(fmt::format("--set {}: {} is no table; a name is KEY, TABLE.KEY or axis.NAME.KEY",
-                                     in_quotes(setting), in_quotes(parts[0])));
+        throw UsageError("--set {}: {} is no table; a name is KEY, TABLE.KEY or axis.NAME.KEY", in_quotes(setting),
+                         in_quotes(parts[0]));
     }
     return node != nullptr ? *node->as_table()
                            : *document.insert_or_assign(parts[0], toml::table{}).first->second.as_table();
@@ -88,12 +77,12 @@ toml::table& table_for(toml::table& document, const std::string& setting, const 
 
 void apply_setting(toml::table& document, const std::string& setting) {
     const std::size_t equals = setting.find('=');
-    const std::vector<std::string_view> parts = parts_of(std::string_view(setting).substr(0, equals));
-    const bool named = std::all_of(parts.begin(), parts.end(), is_word);
+    const std::vector<std::string_view> parts = split(std::string_view(setting).substr(0, equals), '.');
+    const bool named = std::ranges::all_of(parts, is_word);
     if (equals == std::string::npos || !named || parts.size() > 3 || (parts.size() == 3 && parts[0] != "axis")) {
-        throw UsageError(fmt::format("--set {}: write KEY=VALUE, TABLE.KEY=VALUE or axis.NAME.KEY=VALUE, like "
-                                     "axis.x.max_jerk_mm_s3=30000",
-                                     in_quotes(setting)));
+        throw UsageError("--set {}: write KEY=VALUE, TABLE.KEY=VALUE or axis.NAME.KEY=VALUE, like "
+                         "axis.x.max_jerk_mm_s3=30000",
+                         in_quotes(setting));
     }
     toml::table value = value_of(setting, setting.substr(equals + 1));
     toml::table& table = table_for(document, setting, parts);

@@ -4,13 +4,13 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/option_number.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 #include "host_sim/config/path_tolerances.hpp"
 #include "host_sim/curve/methods/method_table.hpp"
 #include "host_sim/curve/streamed_curve.hpp"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -37,15 +37,15 @@ const CurveMethod& known_method(std::string_view name) {
             "there are " +
             available);
     }
-    throw UsageError(fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available));
+    throw UsageError("--curve {}: there is no such method; available are {}", in_quotes(name), available);
 }
 
 template <std::size_t count>
 std::size_t read_word(std::string_view option, std::string_view text,
                       const std::array<std::string_view, count>& words) {
-    const auto* const found = std::find(words.begin(), words.end(), text);
+    const auto* const found = std::ranges::find(words, text);
     if (found == words.end()) {
-        throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(text), listed(words)));
+        throw UsageError("{} {}: it must be one of {}", option, in_quotes(text), listed(words));
     }
     return static_cast<std::size_t>(found - words.begin());
 }
@@ -55,30 +55,24 @@ std::size_t read_word(std::string_view option, std::string_view text,
 Tangent read_tangent(std::string_view option, std::string_view text, bool derivative) {
     Tangent tangent;
     bool zero = true;
-    for (std::string_view rest = text;;) {
-        const std::size_t comma = rest.find(',');
+    for (const std::string_view part : split(text, ',')) {
         if (tangent.components == max_axes) {
-            throw UsageError(fmt::format("{} {} has more than {} components", option, in_quotes(text), max_axes));
+            throw UsageError("{} {} has more than {} components", option, in_quotes(text), max_axes);
         }
         const double most = derivative ? 1e6 : 100.0;
-        const double value =
-            read_option_number(option, rest.substr(0, comma), -most, most, "each component of an end tangent");
+        const double value = read_option_number(option, part, -most, most, "each component of an end tangent");
         tangent.value[static_cast<unsigned>(tangent.components++)] = value;
         zero = zero && value == 0.0;
-        if (comma == std::string_view::npos) {
-            break;
-        }
-        rest.remove_prefix(comma + 1);
     }
     if (zero && !derivative) {
-        throw UsageError(fmt::format("{} {} has no direction; give a vector like 1,0,0", option, in_quotes(text)));
+        throw UsageError("{} {} has no direction; give a vector like 1,0,0", option, in_quotes(text));
     }
     return tangent;
 }
 
 void must_take(const CurveMethod& method, unsigned what, std::string_view option) {
     if ((method.takes & what) == 0) {
-        throw UsageError(fmt::format("--curve {} has no option {}; leave it out", method.name, option));
+        throw UsageError("--curve {} has no option {}; leave it out", method.name, option);
     }
 }
 
@@ -87,9 +81,9 @@ void choose_tolerance(const CurveArguments& arguments, const CurveMethod& method
         return;
     }
     if ((method.takes & takes_tolerance) == 0) {
-        throw UsageError(fmt::format("--curve {} has no option --tolerance; it goes with --curve polyline, or with "
-                                     "a file of elements (.json)",
-                                     method.name));
+        throw UsageError("--curve {} has no option --tolerance; it goes with --curve polyline, or with "
+                         "a file of elements (.json)",
+                         method.name);
     }
     choice.tolerance_mm = read_tolerance(*arguments.tolerance);
     if (choice.closed && choice.tolerance_mm > 0.0) {
@@ -158,7 +152,7 @@ void choose_tangent(const std::optional<std::string>& text, std::string_view opt
     }
     must_take(method, takes_tangents, option);
     if (choice.closed) {
-        throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
+        throw UsageError("{} and --closed exclude each other: a closed curve has no ends", option);
     }
     out = read_tangent(option, *text, points_method(choice.method) != nullptr);
 }
@@ -220,7 +214,7 @@ std::string_view first_option(const CurveArguments& arguments) noexcept {
         {arguments.start_tangent.has_value(), "--start-tangent"},
         {arguments.end_tangent.has_value(), "--end-tangent"},
     }};
-    const auto* const first = std::find_if(given.begin(), given.end(), [](const auto& option) { return option.first; });
+    const auto* const first = std::ranges::find_if(given, [](const auto& option) { return option.first; });
     return first == given.end() ? "" : first->second;
 }
 

@@ -27,14 +27,17 @@ public:
 
     [[nodiscard]] CurveFile parse() {
         if (!root_.is_object()) {
-            fail("the document must be an object, like {\"segments\": [{\"control_points\": [[0, 0], [10, 5]]}]}");
+            throw InputError(
+                file_, 0,
+                "the document must be an object, like {\"segments\": [{\"control_points\": [[0, 0], [10, 5]]}]}");
         }
         if (root_.contains("method")) {
             description();
         } else if (root_.contains("segments")) {
             segments(root_);
         } else {
-            fail(
+            throw InputError(
+                file_, 0,
                 "there is neither \"elements\" (a program) nor \"segments\" (a curve) nor \"method\" with \"input\" (a "
                 "description of one)");
         }
@@ -42,20 +45,19 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(std::string_view what) const { throw InputError(file_, 0, what); }
-
     void description() {
         const json& method = root_["method"];
         if (!method.is_string()) {
-            fail("\"method\" must be the name of a method, in quotes");
+            throw InputError(file_, 0, "\"method\" must be the name of a method, in quotes");
         }
         const auto input = root_.find("input");
         if (input == root_.end() || !input->is_object()) {
-            fail("there must be an object \"input\" beside \"method\"");
+            throw InputError(file_, 0, "there must be an object \"input\" beside \"method\"");
         }
         const auto& name = method.get_ref<const std::string&>();
         if (name == "bspline_surface" || name == "bspline_skin") {
-            fail("this is a surface; splinefeed surface makes a tool path of it, which can be run");
+            throw InputError(file_, 0,
+                             "this is a surface; splinefeed surface makes a tool path of it, which can be run");
         }
         if (name == "bezier") {
             require_known_keys(*input);
@@ -69,7 +71,7 @@ private:
         try {
             require_known(input, {"segments", "closed"});
         } catch (const DescriptionError& error) {
-            fail(error.what());
+            throw InputError(file_, 0, error.what());
         }
     }
 
@@ -77,7 +79,7 @@ private:
         const auto closed = object.find("closed");
         if (closed != object.end()) {
             if (!closed->is_boolean()) {
-                fail("\"closed\" must be true or false");
+                throw InputError(file_, 0, "\"closed\" must be true or false");
             }
             curve_.closed = closed->get<bool>();
         }
@@ -87,7 +89,7 @@ private:
         read_closed(object);
         const auto list = object.find("segments");
         if (list == object.end() || !list->is_array() || list->empty()) {
-            fail("\"segments\" must be an array of at least one segment");
+            throw InputError(file_, 0, "\"segments\" must be an array of at least one segment");
         }
         for (const json& segment : *list) {
             add_segment(segment, fmt::format("segment {}", curve_.segments.size() + 1));
@@ -101,25 +103,25 @@ private:
             moves = !std::equal(first, first + curve_.axes, first + static_cast<std::ptrdiff_t>(i) * curve_.axes);
         }
         if (!moves) {
-            fail("all control points are the same; a path needs a move");
+            throw InputError(file_, 0, "all control points are the same; a path needs a move");
         }
     }
 
     void add_segment(const json& segment, const std::string& name) {
         const auto points = segment.is_object() ? segment.find("control_points") : segment.end();
         if (!segment.is_object() || points == segment.end() || !points->is_array()) {
-            fail(fmt::format("{} must be an object with an array \"control_points\"", name));
+            throw InputError(file_, 0, "{} must be an object with an array \"control_points\"", name);
         }
         const std::size_t count = points->size();
         if (count < 2 || count > static_cast<std::size_t>(max_degree) + 1) {
-            fail(fmt::format("{} has {} control points; it must have 2 to {} (degree 1 to {})", name, count,
-                             max_degree + 1, max_degree));
+            throw InputError(file_, 0, "{} has {} control points; it must have 2 to {} (degree 1 to {})", name, count,
+                             max_degree + 1, max_degree);
         }
         if (const auto degree = segment.find("degree"); degree != segment.end()) {
             if (!degree->is_number_integer() || degree->get<std::int64_t>() != static_cast<std::int64_t>(count) - 1) {
-                fail(fmt::format("{} has \"degree\" {}; with {} control points it must be {}", name,
+                throw InputError(file_, 0, "{} has \"degree\" {}; with {} control points it must be {}", name,
                                  printable(degree->dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)),
-                                 count, count - 1));
+                                 count, count - 1);
             }
         }
         const CurveFile::Segment added{curve_.segments.empty() ? 0 : curve_.points(), static_cast<int>(count) - 1};
@@ -137,25 +139,27 @@ private:
         try {
             return number_of(value, name);
         } catch (const DescriptionError& error) {
-            fail(error.what());
+            throw InputError(file_, 0, error.what());
         }
     }
 
     void add_point(const json& point, const std::string& name) {
         const std::size_t size = point.is_array() ? point.size() : 0;
         if (size < 1 || size > static_cast<std::size_t>(max_axes)) {
-            fail(fmt::format("{} must be an array of one to {} numbers", name, max_axes));
+            throw InputError(file_, 0, "{} must be an array of one to {} numbers", name, max_axes);
         }
         if (curve_.axes == 0) {
             curve_.axes = static_cast<int>(size);
         }
         if (size != static_cast<std::size_t>(curve_.axes)) {
-            fail(fmt::format("{} has {} numbers; it must have {}, like those before it", name, size, curve_.axes));
+            throw InputError(file_, 0, "{} has {} numbers; it must have {}, like those before it", name, size,
+                             curve_.axes);
         }
         for (const json& value : point) {
             const double mm = number(value, name);
             if (!position_representable(mm)) {
-                fail(fmt::format("{} has the coordinate {}; a position must lie within +-1048576 mm", name, mm));
+                throw InputError(file_, 0, "{} has the coordinate {}; a position must lie within +-1048576 mm", name,
+                                 mm);
             }
             curve_.numbers.push_back(mm);
         }
@@ -164,7 +168,7 @@ private:
     void require_near(std::size_t from, std::size_t to, const std::string& name) const {
         for (const unsigned k : indices(curve_.axes)) {
             if (std::fabs(curve_.at(to, k) - curve_.at(from, k)) > longest_mm) {
-                fail(fmt::format("{} is longer than {} mm; cut it into shorter ones", name, longest_mm));
+                throw InputError(file_, 0, "{} is longer than {} mm; cut it into shorter ones", name, longest_mm);
             }
         }
     }
@@ -176,8 +180,9 @@ private:
             gap_sq += d * d;
         }
         if (gap_sq > CurveFile::largest_gap_mm * CurveFile::largest_gap_mm) {
-            fail(fmt::format("{} starts {:.9g} mm from the end of the one before it; they must meet within {} mm", name,
-                             std::sqrt(gap_sq), CurveFile::largest_gap_mm));
+            throw InputError(file_, 0,
+                             "{} starts {:.9g} mm from the end of the one before it; they must meet within {} mm", name,
+                             std::sqrt(gap_sq), CurveFile::largest_gap_mm);
         }
     }
 
@@ -223,13 +228,12 @@ void require_executable(const CurveFile& curve, const std::string& file) {
             for (const unsigned k : indices(curve.axes)) {
                 if (!position_representable(curve.at(i, k))) {
                     throw InputError(file, 0,
-                                     fmt::format("segment {} of the curve reaches {:.6g}; a position must lie within "
-                                                 "+-1048576 mm",
-                                                 s + 1, curve.at(i, k)));
+                                     "segment {} of the curve reaches {:.6g}; a position must lie within "
+                                     "+-1048576 mm",
+                                     s + 1, curve.at(i, k));
                 }
                 if (std::fabs(curve.at(i, k) - curve.at(segment.first_point, k)) > longest_mm) {
-                    throw InputError(file, 0,
-                                     fmt::format("segment {} of the curve is longer than {} mm", s + 1, longest_mm));
+                    throw InputError(file, 0, "segment {} of the curve is longer than {} mm", s + 1, longest_mm);
                 }
             }
         }

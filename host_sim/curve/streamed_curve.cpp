@@ -11,7 +11,6 @@
 #include "splinefeed/s1_curve/polyline.hpp"
 
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -36,7 +35,7 @@ StreamedCurve<S> make_g2_bezier(const CurveChoice& choice, const CurveOptions<S>
     joints.beta1 = from_double<S>(choice.beta1.value_or(1.0));
     joints.beta2 = from_double<S>(choice.beta2);
     if (const Status status = joints.check(); !status.ok()) {
-        throw UsageError(fmt::format("--curve g2-bezier: {}", describe(status.error())));
+        throw UsageError("--curve g2-bezier: {}", describe(status.error()));
     }
     return made<G2Bezier<S>>(options, joints, tangents);
 }
@@ -127,7 +126,7 @@ StreamedCurve<S> streamed_curve(const CurveChoice& choice, const CurveOptions<S>
             }
         }
     }
-    throw UsageError(fmt::format("--curve {} does not stream", choice.method));
+    throw UsageError("--curve {} does not stream", choice.method);
 }
 
 template StreamedCurve<double> streamed_curve(const CurveChoice&, const CurveOptions<double>&,

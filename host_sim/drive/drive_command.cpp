@@ -3,8 +3,8 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/option_number.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/faulty_drive.hpp"
@@ -12,7 +12,6 @@
 #include "host_sim/drive/pvt_drive.hpp"
 #include "host_sim/drive/vfd_drive.hpp"
 
-#include <array>
 #include <fmt/format.h>
 #include <random>
 
@@ -30,14 +29,10 @@ extern "C" void request_stop(int /*signal*/) {
 
 std::vector<double> numbers(std::string_view option, std::string_view text, double low, double high) {
     std::vector<double> out;
-    for (std::string_view rest = text;;) {
-        const std::size_t comma = rest.find(',');
-        out.push_back(read_option_number(option, rest.substr(0, comma), low, high));
-        if (comma == std::string_view::npos) {
-            return out;
-        }
-        rest.remove_prefix(comma + 1);
+    for (const std::string_view part : split(text, ',')) {
+        out.push_back(read_option_number(option, part, low, high));
     }
+    return out;
 }
 
 /// One value for all axes, or one for each.
@@ -48,8 +43,8 @@ void take_each(std::vector<PvtAxisParameters>& axes, std::string_view option, co
     }
     const std::vector<double> values = numbers(option, *text, low, high);
     if (values.size() != 1 && values.size() != axes.size()) {
-        throw UsageError(fmt::format("{} {} has {} numbers; there must be one, or one for each of the {} axes", option,
-                                     in_quotes(*text), values.size(), axes.size()));
+        throw UsageError("{} {} has {} numbers; there must be one, or one for each of the {} axes", option,
+                         in_quotes(*text), values.size(), axes.size());
     }
     for (std::size_t k = 0; k < axes.size(); ++k) {
         axes[k].*member = values[values.size() == 1 ? 0 : k];
@@ -60,8 +55,8 @@ std::size_t choose_axes(const DriveArguments& arguments, const hal::modbus::Driv
     constexpr std::size_t usual = 3;
     if (profile.axes == 1) {
         if (arguments.axes && read_option_integer("--axes", *arguments.axes, 1, max_axes) != 1) {
-            throw UsageError(fmt::format("--axes {}: a drive with the profile {} has one axis; start one for each",
-                                         in_quotes(*arguments.axes), profile.name));
+            throw UsageError("--axes {}: a drive with the profile {} has one axis; start one for each",
+                             in_quotes(*arguments.axes), profile.name);
         }
         return 1;
     }
@@ -73,19 +68,36 @@ std::size_t choose_axes(const DriveArguments& arguments, const hal::modbus::Driv
     return named == 1 ? std::min<std::size_t>(usual, max_axes) : std::min<std::size_t>(named, max_axes);
 }
 
+/// Unless it is not given.
+void take(std::string_view option, const std::optional<std::string>& text, double low, double high, double& out) {
+    out = text ? read_option_number(option, *text, low, high) : out;
+}
+
 MotorAxisParameters shaft_parameters(const DriveArguments& arguments) {
     MotorAxisParameters shaft;
-    if (arguments.bandwidth) {
-        shaft.bandwidth_hz = read_option_number("--bandwidth", *arguments.bandwidth, 0.1, 10000.0);
-    }
-    if (arguments.damping) {
-        shaft.damping = read_option_number("--damping", *arguments.damping, 0.0, 0.999);
-    }
-    if (arguments.feed_forward) {
-        shaft.feed_forward = read_option_number("--feed-forward", *arguments.feed_forward, 0.0, 2.0);
-    }
+    take("--bandwidth", arguments.bandwidth, 0.1, 10000.0, shaft.bandwidth_hz);
+    take("--damping", arguments.damping, 0.0, 0.999, shaft.damping);
+    take("--feed-forward", arguments.feed_forward, 0.0, 2.0, shaft.feed_forward);
     return shaft;
 }
+
+/// An option of drives of axes.
+struct AxisOption {
+    const char* name;
+    std::optional<std::string> DriveArguments::*text;
+    bool of_segments = false; ///< only where the drive takes segments
+};
+constexpr AxisOption axis_options[] = {
+    {"--position", &DriveArguments::position},
+    {"--ring", &DriveArguments::ring, true},
+    {"--max-velocity", &DriveArguments::max_velocity, true},
+    {"--max-acceleration", &DriveArguments::max_acceleration, true},
+    {"--stop-deceleration", &DriveArguments::stop_deceleration},
+    {"--bandwidth", &DriveArguments::bandwidth},
+    {"--damping", &DriveArguments::damping},
+    {"--feed-forward", &DriveArguments::feed_forward},
+    {"--record-segments", &DriveArguments::record_segments, true},
+};
 
 PvtDriveParameters pvt_parameters(const DriveArguments& arguments, std::size_t axes) {
     constexpr double fastest = 1e12;
@@ -112,63 +124,33 @@ PvtDriveParameters pvt_parameters(const DriveArguments& arguments, std::size_t a
     return out;
 }
 
-std::unique_ptr<DriveModel> make_pvt_drive(const DriveArguments& arguments, std::size_t axes, SegmentRecord* segments) {
-    auto drive = std::make_unique<PvtDrive>(pvt_parameters(arguments, axes));
-    if (segments != nullptr) {
-        drive->machine().observe([segments](const ExecutedSegment& executed) { segments->row(executed); });
-    }
-    return drive;
-}
-
 ProfileDriveParameters profile_parameters(const DriveArguments& arguments, const std::string& profile) {
-    const std::array<std::pair<const char*, bool>, 4> of_segments{
-        {{"--ring", arguments.ring.has_value()},
-         {"--max-velocity", arguments.max_velocity.has_value()},
-         {"--max-acceleration", arguments.max_acceleration.has_value()},
-         {"--record-segments", arguments.record_segments.has_value()}}};
-    for (const auto& [option, given] : of_segments) {
-        if (given) {
-            throw UsageError(fmt::format("{} is for drives that take segments, not for the profile {}; leave it out",
-                                         option, profile));
+    for (const AxisOption& option : axis_options) {
+        if (option.of_segments && arguments.*option.text) {
+            throw UsageError("{} is for drives that take segments, not for the profile {}; leave it out", option.name,
+                             profile);
         }
     }
     ProfileDriveParameters out;
     out.axis.shaft = shaft_parameters(arguments);
     if (arguments.position && arguments.position->find(',') != std::string::npos) {
-        throw UsageError(fmt::format("--position {}: a drive with the profile {} has one axis; give one number",
-                                     in_quotes(*arguments.position), profile));
+        throw UsageError("--position {}: a drive with the profile {} has one axis; give one number",
+                         in_quotes(*arguments.position), profile);
     }
-    if (arguments.position) {
-        out.axis.start_counts =
-            read_option_number("--position", *arguments.position, -farthest_counts, farthest_counts);
-    }
-    if (arguments.stop_deceleration) {
-        out.axis.stop_counts_s2 = read_option_number("--stop-deceleration", *arguments.stop_deceleration, 1.0, 1e12);
-    }
+    take("--position", arguments.position, -farthest_counts, farthest_counts, out.axis.start_counts);
+    take("--stop-deceleration", arguments.stop_deceleration, 1.0, 1e12, out.axis.stop_counts_s2);
     return out;
 }
 
 VfdDriveParameters vfd_parameters(const DriveArguments& arguments, const std::string& profile) {
-    const std::array<std::pair<const char*, bool>, 9> of_axes{
-        {{"--position", arguments.position.has_value()},
-         {"--ring", arguments.ring.has_value()},
-         {"--max-velocity", arguments.max_velocity.has_value()},
-         {"--max-acceleration", arguments.max_acceleration.has_value()},
-         {"--stop-deceleration", arguments.stop_deceleration.has_value()},
-         {"--bandwidth", arguments.bandwidth.has_value()},
-         {"--damping", arguments.damping.has_value()},
-         {"--feed-forward", arguments.feed_forward.has_value()},
-         {"--record-segments", arguments.record_segments.has_value()}}};
-    for (const auto& [option, given] : of_axes) {
-        if (given) {
-            throw UsageError(fmt::format(
-                "{} is for drives of axes, not for the spindle of the profile {}; leave it out", option, profile));
+    for (const AxisOption& option : axis_options) {
+        if (arguments.*option.text) {
+            throw UsageError("{} is for drives of axes, not for the spindle of the profile {}; leave it out",
+                             option.name, profile);
         }
     }
     VfdDriveParameters out;
-    if (arguments.ramp) {
-        out.ramp_hz_s = read_option_number("--ramp", *arguments.ramp, 0.1, 1e6);
-    }
+    take("--ramp", arguments.ramp, 0.1, 1e6, out.ramp_hz_s);
     return out;
 }
 
@@ -180,12 +162,17 @@ std::unique_ptr<DriveModel> make_drive_model(const DriveArguments& arguments, co
             std::make_unique<VfdDrive>(profile, vfd_parameters(arguments, profile.name)), profile);
     }
     if (arguments.ramp) {
-        throw UsageError(fmt::format("--ramp is for spindles, not for the profile {}; leave it out", profile.name));
+        throw UsageError("--ramp is for spindles, not for the profile {}; leave it out", profile.name);
     }
     if (profile.stream == hal::modbus::StreamWay::pvt) {
-        return make_pvt_drive(arguments, axes, segments);
+        auto drive = std::make_unique<PvtDrive>(pvt_parameters(arguments, axes));
+        if (segments != nullptr) {
+            drive->machine().observe([segments](const ExecutedSegment& executed) { segments->row(executed); });
+        }
+        return drive;
     }
-    return std::make_unique<FaultyDrive>(make_drive(profile, profile_parameters(arguments, profile.name)), profile);
+    return std::make_unique<FaultyDrive>(
+        std::make_unique<ProfileDrive>(profile, profile_parameters(arguments, profile.name)), profile);
 }
 
 void check_records(const DriveArguments& arguments) {
@@ -198,11 +185,10 @@ void check_records(const DriveArguments& arguments) {
             continue;
         }
         if (*path == "-") {
-            throw UsageError(
-                fmt::format("{} -: standard output tells where the drive listens; record to a file", option));
+            throw UsageError("{} -: standard output tells where the drive listens; record to a file", option);
         }
         if ((*path)->empty()) {
-            throw UsageError(fmt::format("{} needs the name of a file", option));
+            throw UsageError("{} needs the name of a file", option);
         }
     }
 }

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cerrno>
-#include <fmt/format.h>
 #include <modbus/modbus.h>
 #include <new>
 #include <sys/socket.h>
@@ -33,8 +32,8 @@ ModbusContext make_modbus_context(const ListenAddress& address) {
             ? modbus_new_tcp(address.host.c_str(), address.port)
             : modbus_new_rtu(address.device.c_str(), address.baud, address.parity, 8, address.stops()));
     if (context == nullptr) {
-        throw UsageError(fmt::format("--listen {}: libmodbus does not take it: {}", in_quotes(address.text()),
-                                     modbus_strerror(errno)));
+        throw UsageError("--listen {}: libmodbus does not take it: {}", in_quotes(address.text()),
+                         modbus_strerror(errno));
     }
     if (address.kind == ListenAddress::Kind::rtu) {
         modbus_set_slave(context.get(), address.unit);

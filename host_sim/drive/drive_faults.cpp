@@ -95,8 +95,8 @@ constexpr std::array<std::string_view, faults.size()> names = [] {
 }();
 
 [[noreturn]] void refuse(std::string_view item, const FaultWord& fault, std::string_view why) {
-    throw UsageError(fmt::format("--faults {}: {}; write it like {}{}{}", in_quotes(item), why, fault.name,
-                                 fault.form->sign, fault.form->example));
+    throw UsageError("--faults {}: {}; write it like {}{}{}", in_quotes(item), why, fault.name, fault.form->sign,
+                     fault.form->example);
 }
 
 double number(std::string_view item, const FaultWord& fault, std::string_view text, const Range& range) {
@@ -123,10 +123,9 @@ void take_seed(std::string_view item, const FaultWord& fault, std::string_view t
 void take_item(std::string_view item, DriveFaults& out) {
     const std::size_t cut = item.find_first_of("=@");
     const std::string_view name = item.substr(0, cut);
-    const auto* const found = std::find(names.begin(), names.end(), name);
+    const auto* const found = std::ranges::find(names, name);
     if (found == names.end()) {
-        throw UsageError(
-            fmt::format("--faults {}: there is no such fault{}", in_quotes(item), suggestion(name, names)));
+        throw UsageError("--faults {}: there is no such fault{}", in_quotes(item), suggestion(name, names));
     }
     const FaultWord& fault = faults[static_cast<std::size_t>(found - names.begin())];
     const Form& form = *fault.form;
@@ -158,7 +157,7 @@ void take_item(std::string_view item, DriveFaults& out) {
 } // namespace
 
 bool DriveFaults::random() const noexcept {
-    return std::any_of(faults.begin(), faults.end(), [this](const FaultWord& fault) {
+    return std::ranges::any_of(faults, [this](const FaultWord& fault) {
         return (fault.form == &by_probability && this->*fault.value > 0.0) ||
                (fault.spells != nullptr && !(this->*fault.spells).empty());
     });
@@ -166,7 +165,7 @@ bool DriveFaults::random() const noexcept {
 
 bool DriveFaults::lasts(EventKind kind, double time_s) const noexcept {
     constexpr double ms_per_s = 1000.0;
-    return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    return std::ranges::any_of(events, [&](const Event& event) {
         return event.kind == kind && event.time_s <= time_s && time_s < event.time_s + event.amount / ms_per_s;
     });
 }
@@ -195,8 +194,7 @@ DriveFaults parse_drive_faults(std::string_view text) {
         }
         text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
     }
-    std::stable_sort(out.events.begin(), out.events.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    std::ranges::stable_sort(out.events, [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
     return out;
 }
 

@@ -2,7 +2,7 @@
 // DriveFaults: the faults of a simulated drive and of the line to its host, and their times.
 #pragma once
 
-#include "host_sim/drive/model_faults.hpp"
+#include "host_sim/drive/drive_model.hpp"
 
 #include <string>
 #include <string_view>

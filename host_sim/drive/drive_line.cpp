@@ -4,9 +4,10 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <algorithm>
+#include <arpa/inet.h>
 #include <array>
 #include <cerrno>
-#include <fmt/format.h>
+#include <cstdint>
 #include <modbus/modbus.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -26,7 +27,7 @@ constexpr std::size_t mbap_head = 6;               // up to its length
 constexpr std::chrono::milliseconds patience{500}; // for the rest of a frame
 
 [[noreturn]] void fail(const ListenAddress& address, const char* remedy) {
-    throw UsageError(fmt::format("--listen {}: {}; {}", in_quotes(address.text()), modbus_strerror(errno), remedy));
+    throw UsageError("--listen {}: {}; {}", in_quotes(address.text()), modbus_strerror(errno), remedy);
 }
 
 [[noreturn]] void fail_to_listen(const ListenAddress& address) {
@@ -36,6 +37,34 @@ constexpr std::chrono::milliseconds patience{500}; // for the rest of a frame
 }
 
 } // namespace
+
+ReservedPort::ReservedPort(const ListenAddress& address)
+    : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, IPPROTO_TCP)) {
+    sockaddr_in bound{};
+    bound.sin_family = AF_INET;
+    bound.sin_port = htons(static_cast<std::uint16_t>(address.port));
+    inet_pton(AF_INET, address.host.c_str(), &bound.sin_addr);
+    socklen_t size = sizeof(bound);
+    const int on = 1;
+    if (socket_ >= 0 && setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on)) == 0 &&
+        bind(socket_, reinterpret_cast<const sockaddr*>(&bound), size) == 0 &&
+        getsockname(socket_, reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
+        port_ = ntohs(bound.sin_port);
+        return;
+    }
+    const int error = errno;
+    if (socket_ >= 0) {
+        close(socket_);
+    }
+    socket_ = -1;
+    errno = error;
+}
+
+ReservedPort::~ReservedPort() {
+    if (!none()) {
+        close(socket_);
+    }
+}
 
 DriveLine::DriveLine(const ListenAddress& address)
     : address_(address), context_(make_modbus_context(address)),

@@ -11,7 +11,7 @@
 
 namespace splinefeed::host {
 
-/// Header `t,a0,a1,...`; t in s with 3 decimals, shafts in counts with 6. Cost of a row: about 0.1 us per axis.
+/// Header `t,a0,a1,...`; t in s with 3 decimals, shafts in counts with 6.
 class DriveRecord {
 public:
     /// @param start_s  CLOCK_MONOTONIC at t = 0. Throws OutputError if the file cannot be created.

@@ -253,7 +253,7 @@ bool DriveServer::replace_by_stale(Bytes& reply) const {
     const auto alike = [&](const Bytes& old) {
         return old.size() == reply.size() && old[header] == reply[header];
     };
-    const auto found = std::find_if(sent_.begin(), sent_.end(), alike);
+    const auto found = std::ranges::find_if(sent_, alike);
     if (found == sent_.end() || *found == reply) {
         return false;
     }

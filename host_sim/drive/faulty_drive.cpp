@@ -26,8 +26,7 @@ FaultyDrive::FaultyDrive(std::unique_ptr<DriveModel> drive, DriveProfile profile
 
 bool FaultyDrive::is_state(FieldIndex index) const {
     return profile_.fields[index].role == FieldRole::status ||
-           std::any_of(profile_.states.begin(), profile_.states.end(),
-                       [index](const StateTest& test) { return test.test.field == index; });
+           std::ranges::any_of(profile_.states, [index](const StateTest& test) { return test.test.field == index; });
 }
 
 ModbusException FaultyDrive::read(int address, std::span<std::uint16_t> out) {
@@ -64,8 +63,7 @@ bool FaultyDrive::stops(int address, std::span<const std::uint16_t> values) cons
                      take_raw(field, values.subspan(static_cast<std::size_t>(field.address - address))));
     };
     const std::vector<CommandStep>& off = profile_.steps_of(DriveCommand::disable);
-    return std::none_of(off.begin(), off.end(), has) &&
-           std::any_of(stop_commands.begin(), stop_commands.end(), [&](DriveCommand command) {
+    return std::ranges::none_of(off, has) && std::ranges::any_of(stop_commands, [&](DriveCommand command) {
                const std::vector<CommandStep>& steps = profile_.steps_of(command);
                return !steps.empty() && has(steps.front());
            });

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 5> keys{"baud", "parity", "stop", "unit", "pace"};
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
-    throw UsageError(fmt::format("--listen {}: {}", in_quotes(text), why));
+    throw UsageError("--listen {}: {}", in_quotes(text), why);
 }
 
 int number(std::string_view text, std::string_view what, std::string_view digits, int low, int high) {

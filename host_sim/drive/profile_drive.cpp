@@ -3,13 +3,11 @@
 
 #include "splinefeed/base/units.hpp"
 
-#include "host_sim/base/input_error.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -22,16 +20,6 @@ constexpr std::int64_t homing_mode = 6;
 constexpr std::int64_t cyclic_mode = 8;
 constexpr std::uint32_t acknowledge_bit = 0x1000;
 
-/// The raw value with the test true or false.
-std::int64_t with_test(std::int64_t raw, const FieldTest& test, bool truth) {
-    const std::int64_t mask = test.mask;
-    const std::int64_t made = (raw & ~mask) | static_cast<std::int64_t>(test.value);
-    if (truth || !holds(test, raw)) {
-        return truth ? made : raw;
-    }
-    return raw ^ (mask & -mask);
-}
-
 } // namespace
 
 ProfileDrive::ProfileDrive(DriveProfile profile, const ProfileDriveParameters& parameters)
@@ -43,30 +31,25 @@ ProfileDrive::ProfileDrive(DriveProfile profile, const ProfileDriveParameters& p
     }
 }
 
-FieldIndex ProfileDrive::index_of(FieldRole role) const noexcept {
-    const RegisterField* const field = profile_.field_of(role);
-    return field == nullptr ? no_field : static_cast<FieldIndex>(field - profile_.fields.data());
-}
-
 std::int64_t ProfileDrive::raw(FieldRole role) const {
-    const FieldIndex index = index_of(role);
+    const FieldIndex index = profile_.index_of(role);
     return index == no_field ? 0 : registers_.raw(index);
 }
 
 bool ProfileDrive::written(FieldRole role) const {
-    const FieldIndex index = index_of(role);
+    const FieldIndex index = profile_.index_of(role);
     return index != no_field && profile_.fields[index].writable() && registers_.was_written(index);
 }
 
 double ProfileDrive::physical(FieldRole role, double otherwise) const {
-    const FieldIndex index = index_of(role);
+    const FieldIndex index = profile_.index_of(role);
     return index == no_field
                ? otherwise
                : static_cast<double>(physical_of(profile_.fields[index], registers_.raw(index))) / physical_one;
 }
 
 void ProfileDrive::show(FieldRole role, double physical) {
-    const FieldIndex index = index_of(role);
+    const FieldIndex index = profile_.index_of(role);
     if (index != no_field) {
         registers_.set(index, raw_of(profile_.fields[index], std::llround(physical * physical_one)).raw);
     }
@@ -99,7 +82,7 @@ void ProfileDrive::take_settings() {
     if (written(FieldRole::following_error_window)) {
         axis_.set_following_window(physical(FieldRole::following_error_window, 0.0));
     }
-    const FieldIndex display = index_of(FieldRole::mode_display);
+    const FieldIndex display = profile_.index_of(FieldRole::mode_display);
     if (display != no_field && written(FieldRole::mode)) {
         registers_.set(display, raw(FieldRole::mode));
     }
@@ -137,7 +120,7 @@ void ProfileDrive::resume() {
 bool ProfileDrive::follows_targets() const {
     const std::vector<CommandStep>& steps = profile_.steps_of(DriveCommand::start_move);
     return !steps.empty() && steps.back().kind == StepKind::level &&
-           steps.back().field == index_of(FieldRole::control) &&
+           steps.back().field == profile_.index_of(FieldRole::control) &&
            (machine_.word() & steps.back().mask) == steps.back().value;
 }
 
@@ -272,7 +255,7 @@ ModbusException ProfileDrive::read(int address, std::span<std::uint16_t> out) {
         exchange_us_ = now_us_;
         watchdog_fired_ = false;
         if (profile_.link.reads_zero_until_written && !written_once_) {
-            std::fill(out.begin(), out.end(), std::uint16_t{0});
+            std::ranges::fill(out, std::uint16_t{0});
         }
     }
     return refused;
@@ -283,9 +266,9 @@ void ProfileDrive::refresh() {
     show(FieldRole::actual_position, axis_.shaft().position_counts());
     show(FieldRole::actual_velocity, axis_.reference().velocity_counts_s());
     show(FieldRole::following_error, axis_.shaft().following_error_counts());
-    const FieldIndex status = index_of(FieldRole::status);
+    const FieldIndex status = profile_.index_of(FieldRole::status);
     registers_.set(status, profile_.cia402 ? status_by_cia402() : status_by_masks());
-    if (const FieldIndex code = index_of(FieldRole::fault_code); code != no_field) {
+    if (const FieldIndex code = profile_.index_of(FieldRole::fault_code); code != no_field) {
         // CiA 402's codes of a following error and of a lost bus; a maker's own are not known.
         constexpr std::array<std::int64_t, 3> standard{0, 0x8611, 0x8130};
         const auto fault = static_cast<std::size_t>(axis_.fault());
@@ -294,8 +277,7 @@ void ProfileDrive::refresh() {
 }
 
 bool ProfileDrive::reports(DriveState state) const {
-    return std::any_of(profile_.states.begin(), profile_.states.end(),
-                       [state](const StateTest& test) { return test.state == state; });
+    return std::ranges::any_of(profile_.states, [state](const StateTest& test) { return test.state == state; });
 }
 
 DriveState ProfileDrive::state() const {
@@ -315,7 +297,7 @@ DriveState ProfileDrive::state() const {
 }
 
 std::int64_t ProfileDrive::with_tests(std::int64_t status) const {
-    const FieldIndex index = index_of(FieldRole::status);
+    const FieldIndex index = profile_.index_of(FieldRole::status);
     if (profile_.done && profile_.done->field == index) {
         status = with_test(status, *profile_.done, axis_.arrived() && !queued_);
     }
@@ -330,7 +312,7 @@ std::int64_t ProfileDrive::status_by_masks() const {
     const DriveState now = state();
     std::int64_t status = 0;
     for (const StateTest& test : profile_.states) {
-        if (test.state == now && test.test.field == index_of(FieldRole::status)) {
+        if (test.state == now && test.test.field == profile_.index_of(FieldRole::status)) {
             status = with_test(status, test.test, true);
             break;
         }
@@ -388,13 +370,6 @@ void ProfileDrive::check_watchdog() {
     case WatchdogReaction::fault: axis_.trip(AxisFault::watchdog); break;
     case WatchdogReaction::none: break;
     }
-}
-
-std::unique_ptr<DriveModel> make_drive(DriveProfile profile, const ProfileDriveParameters& parameters) {
-    if (profile.stream == StreamWay::pvt) {
-        throw UsageError(fmt::format("profile {} streams segments; name splinefeed-pvt", in_quotes(profile.name)));
-    }
-    return std::make_unique<ProfileDrive>(std::move(profile), parameters);
 }
 
 } // namespace splinefeed::host

@@ -44,7 +44,6 @@ public:
     void stop_by_itself();
 
 private:
-    [[nodiscard]] hal::modbus::FieldIndex index_of(hal::modbus::FieldRole role) const noexcept;
     [[nodiscard]] std::int64_t raw(hal::modbus::FieldRole role) const;
     [[nodiscard]] bool written(hal::modbus::FieldRole role) const;
     [[nodiscard]] double physical(hal::modbus::FieldRole role, double otherwise) const;
@@ -83,9 +82,5 @@ private:
     double target_ = 0.0;          // of the present move
     std::optional<double> queued_; // the target after it
 };
-
-/// The model of a profile. Throws UsageError for a profile that streams pvt: use PvtDrive.
-[[nodiscard]] std::unique_ptr<DriveModel> make_drive(hal::modbus::DriveProfile profile,
-                                                     const ProfileDriveParameters& parameters);
 
 } // namespace splinefeed::host

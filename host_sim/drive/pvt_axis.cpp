@@ -22,11 +22,11 @@ int PvtReference::fastest() const noexcept {
     const auto slower = [](double a, double b) {
         return std::fabs(a) < std::fabs(b);
     };
-    return static_cast<int>(std::max_element(counts_s.begin(), counts_s.end(), slower) - counts_s.begin());
+    return static_cast<int>(std::ranges::max_element(counts_s, slower) - counts_s.begin());
 }
 
 bool PvtReference::rests() const noexcept {
-    return std::all_of(counts_s.begin(), counts_s.end(), [](double speed) { return speed == 0.0; });
+    return std::ranges::all_of(counts_s, [](double speed) { return speed == 0.0; });
 }
 
 PvtFault fault_of(const PvtAxisParameters& axis, const PvtAxisStep& step, double window_counts) noexcept {

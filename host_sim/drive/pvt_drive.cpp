@@ -113,7 +113,7 @@ ModbusException PvtDrive::write(int address, std::span<const std::uint16_t> valu
     }
     if (address == pvt::block_address && values.size() <= pvt::most_block_registers) {
         hal::modbus::PvtBlockRegisters block{};
-        std::copy(values.begin(), values.end(), block.begin());
+        std::ranges::copy(values, block.begin());
         swap_block(std::span(block).first(values.size()), axes());
         return registers_.write(address, std::span(block).first(values.size()));
     }
@@ -123,7 +123,7 @@ ModbusException PvtDrive::write(int address, std::span<const std::uint16_t> valu
     }
     std::array<std::uint16_t, pvt::configuration_registers> all{};
     static_cast<void>(read(table->address, all));
-    std::copy(values.begin(), values.end(), all.begin() + (address - table->address));
+    std::ranges::copy(values, all.begin() + (address - table->address));
     swap_table(*table, all);
     return registers_.write(table->address, all);
 }

@@ -49,8 +49,6 @@ public:
 
     [[nodiscard]] PvtMachine& machine() noexcept { return machine_; }
     [[nodiscard]] hal::modbus::PvtStatus status() const { return registers_.completed(machine_.PvtMachine::status()); }
-    /// What it says of itself: with its faults.
-    [[nodiscard]] hal::modbus::PvtStatus told_status() { return registers_.completed(machine_.status()); }
 
 private:
     PvtDriveParameters parameters_;

@@ -237,7 +237,7 @@ void PvtMachine::fail(PvtFault fault, int axis) {
 bool PvtMachine::idle() const noexcept {
     return motion_ == Motion::none &&
            (state_ == PvtState::disabled ||
-            std::all_of(shafts_.begin(), shafts_.end(), [](const MotorAxis& shaft) { return shaft.settled(); }));
+            std::ranges::all_of(shafts_, [](const MotorAxis& shaft) { return shaft.settled(); }));
 }
 
 void PvtMachine::advance(std::uint64_t now_us) {

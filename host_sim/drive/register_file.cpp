@@ -9,6 +9,12 @@ namespace splinefeed::host {
 
 using namespace hal::modbus;
 
+std::int64_t with_test(std::int64_t raw, const FieldTest& test, bool truth) {
+    const std::int64_t mask = test.mask;
+    const std::int64_t made = (raw & ~mask) | static_cast<std::int64_t>(test.value);
+    return truth ? made : holds(test, raw) ? raw ^ (mask & -mask) : raw;
+}
+
 RegisterFile::RegisterFile(const DriveProfile& profile)
     : fields_(profile.fields), read_(addresses), written_(addresses), reader_(addresses, nobody),
       writer_(addresses, nobody) {

@@ -12,6 +12,9 @@
 
 namespace splinefeed::host {
 
+/// The raw value of a field with the test true or false.
+[[nodiscard]] std::int64_t with_test(std::int64_t raw, const hal::modbus::FieldTest& test, bool truth);
+
 class RegisterFile {
 public:
     explicit RegisterFile(const hal::modbus::DriveProfile& profile);

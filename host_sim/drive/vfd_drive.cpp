@@ -16,13 +16,6 @@ namespace {
 
 constexpr double near_hz = 0.01;
 
-/// The raw value with the test true or false.
-std::int64_t put_test(std::int64_t raw, const FieldTest& test, bool truth) {
-    const std::int64_t mask = test.mask;
-    const std::int64_t made = (raw & ~mask) | static_cast<std::int64_t>(test.value);
-    return truth ? made : holds(test, raw) ? raw ^ (mask & -mask) : raw;
-}
-
 } // namespace
 
 VfdDrive::VfdDrive(DriveProfile profile, const VfdDriveParameters& parameters)
@@ -48,7 +41,7 @@ void VfdDrive::advance(std::uint64_t now_us) {
 bool VfdDrive::is_commanded(DriveCommand command) const {
     const std::vector<CommandStep>& steps = profile_.steps_of(command);
     return !steps.empty() && registers_.was_written(steps.back().field) &&
-           std::all_of(steps.begin(), steps.end(), [this](const CommandStep& step) {
+           std::ranges::all_of(steps, [this](const CommandStep& step) {
                return holds({step.field, step.mask, step.value}, registers_.raw(step.field));
            });
 }
@@ -79,11 +72,11 @@ void VfdDrive::refresh() {
     registers_.set(output, raw_of(profile_.fields[output], std::llround(std::fabs(output_hz_) * physical_one)).raw);
     const DriveState now = state();
     for (const StateTest& test : profile_.states) {
-        registers_.set(test.test.field, put_test(registers_.raw(test.test.field), test.test, test.state == now));
+        registers_.set(test.test.field, with_test(registers_.raw(test.test.field), test.test, test.state == now));
     }
     if (profile_.done) {
         const bool done = direction_ != 0 && std::fabs(output_hz_ - direction_ * speed_hz()) < near_hz;
-        registers_.set(profile_.done->field, put_test(registers_.raw(profile_.done->field), *profile_.done, done));
+        registers_.set(profile_.done->field, with_test(registers_.raw(profile_.done->field), *profile_.done, done));
     }
     if (const FieldIndex code = profile_.index_of(FieldRole::fault_code); code != no_field) {
         registers_.set(code, faulted_ ? 1 : 0);

@@ -196,7 +196,7 @@ bool SimulatedMachine::execute(const FeedSegment& segment) {
     if (options_.measures) {
         survey(motion);
     } else {
-        std::copy(segment.end.begin(), segment.end.end(), position_.begin());
+        std::ranges::copy(segment.end, position_.begin());
     }
     for (int j = 0; options_.measures && j <= options_.ticks_per_segment; ++j) {
         if (!tick(motion, j)) {

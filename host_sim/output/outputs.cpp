@@ -2,33 +2,8 @@
 #include "host_sim/output/outputs.hpp"
 
 #include "host_sim/base/file_claims.hpp"
-#include "host_sim/output/edge_writer.hpp"
-#include "host_sim/output/segment_writer.hpp"
-
-#include <array>
 
 namespace splinefeed::host {
-
-namespace {
-
-template <class Writer>
-std::unique_ptr<SegmentOutput> make_output(OutputFile& file, const MachineDescription& machine) {
-    return std::make_unique<Writer>(file, machine);
-}
-
-/// One row per output: a new one adds its own.
-constexpr std::array segment_kinds{
-    SegmentOutputKind{"--segments", "S.csv: the feed segments, in integers", make_output<SegmentWriter>},
-    SegmentOutputKind{"--edges",
-                      "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md",
-                      make_output<EdgeWriter>},
-};
-
-} // namespace
-
-std::span<const SegmentOutputKind> segment_output_kinds() noexcept {
-    return segment_kinds;
-}
 
 Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed) {
     if (!names.curve.empty()) {
@@ -48,9 +23,10 @@ Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed,
     if (!names.elements.empty()) {
         elements_.emplace(elements_file_.emplace(names.elements), machine);
     }
-    for (std::size_t i = 0; i < segment_kinds.size(); ++i) {
+    for (std::size_t i = 0; i < names.of_segments.size(); ++i) {
         if (!names.of_segments[i].empty()) {
-            of_segments_.push_back(segment_kinds[i].make(segment_files_.emplace_back(names.of_segments[i]), machine));
+            of_segments_.push_back(
+                segment_output_kinds()[i].make(segment_files_.emplace_back(names.of_segments[i]), machine));
         }
     }
 }

@@ -11,23 +11,11 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace splinefeed::host {
-
-/// An output that is made of feed segments: its option, what --help says of it, and its writer.
-struct SegmentOutputKind {
-    const char* option;
-    const char* help;
-    /// Writes the head. Throws OutputError, and InputError where the output cannot be made for the machine.
-    std::unique_ptr<SegmentOutput> (*make)(OutputFile& file, const MachineDescription& machine);
-};
-
-/// All of them. A new one is a row in outputs.cpp.
-[[nodiscard]] std::span<const SegmentOutputKind> segment_output_kinds() noexcept;
 
 /// Where the outputs of a run go. Empty: there is no such output; "-": standard output.
 struct OutputNames {

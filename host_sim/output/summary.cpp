@@ -1,19 +1,55 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/summary.hpp"
 
-#include "host_sim/analysis/share_table.hpp"
+#include "host_sim/analysis/limit_share.hpp"
 #include "host_sim/curve/curve_arguments.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
+#include <string>
 #include <string_view>
 
 namespace splinefeed::host {
 
 namespace {
+
+std::string in_tenths(double share) {
+    return fmt::format("{:.1f} %", share * 100.0);
+}
+
+/// One row per axis and one per limit of the path, in percent of the time; each ends with a line end.
+/// @param names  names of the axes, as many as there are in `shares`
+std::string share_table(const std::vector<std::string>& names, const LimitShares& shares) {
+    const bool any_jerk =
+        std::ranges::any_of(shares.axis, [](const LimitShares::Axis& axis) { return axis.jerk.has_value(); });
+    std::string text;
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "{:<22}{:>14}{:>14}{}\n", "share of the time at", "velocity", "acceleration",
+                   any_jerk ? "          jerk" : "");
+    for (std::size_t k = 0; k < shares.axis.size(); ++k) {
+        const LimitShares::Axis& axis = shares.axis[k];
+        fmt::format_to(out, "{:<22}{:>14}{:>14}", "  axis " + names[k], in_tenths(axis.velocity),
+                       in_tenths(axis.acceleration));
+        if (any_jerk) {
+            fmt::format_to(out, "{:>14}", axis.jerk ? in_tenths(*axis.jerk) : "no limit");
+        }
+        fmt::format_to(out, "\n");
+    }
+    const auto row = [&out](const char* label, double share) {
+        fmt::format_to(out, "{:<22}{:>14}\n", label, in_tenths(share));
+    };
+    row("  path feed", shares.feed);
+    if (shares.centripetal) {
+        row("  centripetal", *shares.centripetal);
+    }
+    if (shares.chord) {
+        row("  chord error", *shares.chord);
+    }
+    row("  no limit", shares.none);
+    return text;
+}
 
 // A use above this is worth a sentence: the tolerance of the simulated machine.
 constexpr double over_limit = 1.0 + 1e-6;
@@ -47,8 +83,7 @@ std::string longer(const Summary& summary) {
 
 void write_limit_use(Lines out, const Summary& summary) {
     const auto& uses = summary.limit_use;
-    const bool any_jerk =
-        std::any_of(uses.begin(), uses.end(), [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
+    const bool any_jerk = std::ranges::any_of(uses, [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
     fmt::format_to(out, "\n{:<22}{:>14}{:>14}{}\n", "limits used", "velocity", "acceleration",
                    any_jerk ? "          jerk" : "");
     for (const Summary::AxisUse& use : uses) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
-#include "host_sim/output/gpio_summary.hpp"
 #include "host_sim/output/link_summary.hpp"
 #include "host_sim/output/program_summary.hpp"
 

@@ -17,7 +17,7 @@ void ElementFeeder::limit_tolerance(SourceStep& step) const {
     for (unsigned k = 0; k < max_axes; ++k) {
         const auto& points = step.move.bezier.points[k];
         const bool bends = step.move.shape == MoveShape::bezier &&
-                           std::any_of(points.begin(), points.end(), [](double offset) { return offset != 0.0; });
+                           std::ranges::any_of(points, [](double offset) { return offset != 0.0; });
         if (tolerances.rotary[k] && (step.move.to[k] != here_[k] || bends)) {
             step.move.tolerance_mm = std::min(step.move.tolerance_mm, tolerances.rotary_deg);
         }

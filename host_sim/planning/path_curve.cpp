@@ -4,8 +4,6 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/element_cast.hpp"
 
-#include <fmt/format.h>
-
 namespace splinefeed::host {
 
 namespace {
@@ -16,9 +14,8 @@ void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerA
         return;
     }
     if (given->components > axes) {
-        throw UsageError(
-            fmt::format("an end tangent has {} components, but the path has {} axes; give one for each axis",
-                        given->components, axes));
+        throw UsageError("an end tangent has {} components, but the path has {} axes; give one for each axis",
+                         given->components, axes);
     }
     has = true;
     for (const unsigned k : indices(given->components)) {
@@ -29,8 +26,7 @@ void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerA
 void require_smoothable(const CurveFile& file) {
     for (const CurveFile::Segment& segment : file.segments) {
         if (segment.degree > 5) {
-            throw UsageError(
-                fmt::format("--smooth takes segments up to degree 5; there is one of degree {}", segment.degree));
+            throw UsageError("--smooth takes segments up to degree 5; there is one of degree {}", segment.degree);
         }
     }
 }

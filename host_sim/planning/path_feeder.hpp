@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: MIT
-// PathFeeder: the way of an input into its curve.
+// PathFeeder: the way of an input into its curve. CurveWatch: whoever looks at the curve before it is planned.
 #pragma once
 
 #include "host_sim/planning/path_sink.hpp"
 #include "host_sim/program/path_input.hpp"
+#include "splinefeed/s1_curve/curve_segment.hpp"
 
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace splinefeed::host {
+
+class PathFeeder;
+
+class CurveWatch {
+public:
+    /// The next segment in the order of travel. If it throws, the segment is not passed on, and the curve ends.
+    /// @param row  of its waypoint, element or move in the input
+    virtual void segment(const CurveSegment<double>& segment, std::uint32_t row, const PathFeeder& feeder) = 0;
+
+protected:
+    CurveWatch() = default;
+    CurveWatch(const CurveWatch&) = default;
+    CurveWatch& operator=(const CurveWatch&) = default;
+    ~CurveWatch() = default;
+};
 
 /// more() takes one waypoint or one step of a program at a time, so nothing is read before the curve needs it.
 class PathFeeder {

@@ -7,8 +7,6 @@
 
 #include "splinefeed/number/path_position.hpp"
 
-#include <fmt/format.h>
-
 namespace splinefeed::host {
 
 namespace {
@@ -66,7 +64,7 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
 std::size_t read_window(std::string_view text) {
     const auto cells = read_whole<std::size_t>(text, 10, 1000000);
     if (!cells) {
-        throw UsageError(fmt::format("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text)));
+        throw UsageError("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text));
     }
     return *cells;
 }

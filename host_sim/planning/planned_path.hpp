@@ -3,7 +3,6 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
-#include "host_sim/planning/curve_watch.hpp"
 #include "host_sim/planning/path_feeder.hpp"
 #include "host_sim/program/path_input.hpp"
 

@@ -4,7 +4,6 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -31,9 +30,9 @@ void WaypointFeeder::read_all() {
     while (input_rows_->next(row)) {
         if (all_.size() == most_closed) {
             throw InputError(input_->name(), row.line,
-                             fmt::format("a closed curve is kept in memory as a whole, and has at most {} waypoints; "
-                                         "leave --closed out, or take fewer",
-                                         most_closed));
+                             "a closed curve is kept in memory as a whole, and has at most {} waypoints; "
+                             "leave --closed out, or take fewer",
+                             most_closed);
         }
         all_.push_back(row);
         ++rows_read_;

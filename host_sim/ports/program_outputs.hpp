@@ -1,29 +1,46 @@
 // SPDX-License-Identifier: MIT
 // ProgramOutputs: everything that the events of a program act on or wait for in a run on a real target: spindle,
-// coolant, digital outputs and inputs.
+// coolant, digital outputs and inputs. InputQuestion: how M66 waits for an input, and its answer.
 #pragma once
 
-#include "host_sim/ports/input_question.hpp"
-#include "host_sim/ports/run_inputs.hpp"
-#include "host_sim/ports/run_spindle.hpp"
-#include "host_sim/ports/run_switches.hpp"
+#include "host_sim/ports/output_parts.hpp"
 #include "host_sim/program/program_action.hpp"
-
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/s0_program/program_event.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace splinefeed::host {
 
+/// By readings of the input. A change is one between two of them.
+class InputQuestion {
+public:
+    static constexpr int timed_out = -1; ///< the answer, #5399, as in LinuxCNC
+
+    /// @param timeout_s  not for InputWait::now   @param now_us  when it begins
+    InputQuestion(InputWait wait, double timeout_s, std::uint64_t now_us) noexcept;
+
+    /// Takes a reading that was asked for at that instant, since it began. Returns the answer, the level as 0 or 1, or
+    /// timed_out; nothing: it waits on. What is not read is no time-out: the last reading decides.
+    [[nodiscard]] std::optional<int> take(bool active, std::uint64_t asked_us) noexcept;
+
+private:
+    InputWait wait_;
+    std::uint64_t until_us_;
+    std::optional<bool> before_; // the reading before
+};
+
 /// All functions return at once; but act() and update(), which one thread calls, they may be called by any thread.
 /// After end(), or once there is trouble, nothing is turned on any more.
 class ProgramOutputs {
 public:
-    using Switches = std::vector<std::unique_ptr<RunSwitches>>;
-    using Inputs = std::vector<std::unique_ptr<RunInputs>>;
+    using Switches = std::vector<std::shared_ptr<RunSwitches>>;
+    using Inputs = std::vector<std::shared_ptr<RunInputs>>;
 
     /// @param spindle  null: the machine has none
     ProgramOutputs(std::unique_ptr<RunSpindle> spindle, Switches switches, Inputs inputs = {},

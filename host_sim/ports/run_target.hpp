@@ -3,24 +3,39 @@
 // port, and what the tool has to know and to say of it.
 #pragma once
 
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/output/summary.hpp"
-#include "host_sim/ports/switch_facts.hpp"
-
 #include "splinefeed/hal/motion_port.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace splinefeed::host {
 
+/// What stops a machine, beside the failures of its port.
+enum class StopCause : std::uint8_t { none, drive_fault, limit_switch, emergency_stop };
+
+/// What a target has of switches, for the settings that senders ask for. Axes are bits.
+struct SwitchFacts {
+    std::uint32_t limits = 0;         ///< axes with limit switches
+    std::uint32_t homes = UINT32_MAX; ///< that find a reference,
+    std::uint32_t homes_low = 0;      ///< at their low end
+    bool probe = false;
+    std::uint32_t debounce_us = 0;
+    double pull_off_mm = 0.0;
+    double seek_mm_s = 0.0;  ///< of the slowest axis
+    double latch_mm_s = 0.0; ///< likewise
+    std::string no_home;     ///< of axes that find none, what would be right; empty: the controller's own sentence
+};
+
 /// A target that cannot be used: nothing has moved. The tool then exits with status 1.
-struct TargetError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct TargetError : TextError {
+    using TextError::TextError;
 };
 
 /// What a run does when the machine stands elsewhere than its program begins.

@@ -33,7 +33,7 @@ std::string stop_sentence(const std::vector<StoppedDrive>& drives, bool twice) {
     if (const std::string missing = unconfirmed_drives(drives); !missing.empty()) {
         return begin + missing.substr(2);
     }
-    if (std::all_of(drives.begin(), drives.end(), [](const StoppedDrive& drive) { return drive.report.held(); })) {
+    if (std::ranges::all_of(drives, [](const StoppedDrive& drive) { return drive.report.held(); })) {
         return begin + "all drives were held on the path";
     }
     std::string text = begin + "all axes stopped, each for itself";

@@ -52,7 +52,7 @@ const TargetKind& target_kind(const std::string& target) {
             try {
                 kind->check(target);
             } catch (const AddressError& error) {
-                throw UsageError(fmt::format("--target {}: {}", in_quotes(target), error.what()));
+                throw UsageError("--target {}: {}", in_quotes(target), error.what());
             }
             return *kind;
         }

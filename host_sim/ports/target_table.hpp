@@ -4,7 +4,6 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
-#include "host_sim/ports/link_report.hpp"
 #include "host_sim/ports/run_target.hpp"
 
 #include <memory>
@@ -12,6 +11,11 @@
 #include <string_view>
 
 namespace splinefeed::host {
+
+struct LinkReport {
+    std::string text;    ///< lines for standard output
+    std::string trouble; ///< why the machine cannot run as it stands, and the way out; empty: it can
+};
 
 struct TargetKind {
     std::string_view names; ///< what a user may write, and the page that says more

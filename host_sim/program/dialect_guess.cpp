@@ -156,8 +156,7 @@ void DialectGuess::add(std::string_view line, std::uint64_t number) {
 }
 
 Dialect DialectGuess::dialect() const noexcept {
-    const auto* const best = std::max_element(evidence_.begin(), evidence_.end(),
-                                              [](const Evidence& a, const Evidence& b) { return a.points < b.points; });
+    const auto* const best = std::ranges::max_element(evidence_, {}, &Evidence::points);
     return best->points < enough ? Dialect::linuxcnc : static_cast<Dialect>(best - evidence_.begin());
 }
 

@@ -21,10 +21,6 @@ constexpr double end_gap_mm = 1e-6;
 constexpr double core_radius_change_mm = 0.002; // of the core's arcs: what rounding to 3 decimals makes
 constexpr double arc_step = 0.4;                // [rad]
 
-[[noreturn]] void refuse(const std::string& what) {
-    throw DescriptionError(what);
-}
-
 constexpr const char* not_followed = "it cannot be followed within 1e-6 mm; check its centre, or its weights and knots";
 
 /// The Bezier pieces of a NURBS, in homogeneous coordinates; `breaks` gets the parameters where they begin and end.
@@ -32,18 +28,19 @@ std::vector<BezierPiece<double>> pieces_of(const ProgrammedNurbs& nurbs, std::ve
     const auto degree = static_cast<std::size_t>(nurbs.degree);
     const std::size_t count = nurbs.points.size();
     if (count < degree + 1) {
-        refuse(fmt::format("there are {} control points; an order of {} needs as many at least", count, degree + 1));
+        throw DescriptionError("there are {} control points; an order of {} needs as many at least", count, degree + 1);
     }
     if (nurbs.weights.size() != count || nurbs.knots.size() != count + degree + 1) {
-        refuse(fmt::format("there are {} weights and {} knots; {} control points of order {} need {} and {}",
-                           nurbs.weights.size(), nurbs.knots.size(), count, degree + 1, count, count + degree + 1));
+        throw DescriptionError("there are {} weights and {} knots; {} control points of order {} need {} and {}",
+                               nurbs.weights.size(), nurbs.knots.size(), count, degree + 1, count, count + degree + 1);
     }
-    const auto [lightest, heaviest] = std::minmax_element(nurbs.weights.begin(), nurbs.weights.end());
+    const auto [lightest, heaviest] = std::ranges::minmax_element(nurbs.weights);
     if (!(*lightest > 0.0) || *heaviest > 1e6 * *lightest) {
-        refuse("every weight must be above 0, and the largest at most a million times the smallest");
+        throw DescriptionError("every weight must be above 0, and the largest at most a million times the smallest");
     }
-    if (!std::is_sorted(nurbs.knots.begin(), nurbs.knots.end()) || !(nurbs.knots[count] > nurbs.knots[degree])) {
-        refuse("\"knots\" must not decrease, and the curve needs an interval between knots of the middle");
+    if (!std::ranges::is_sorted(nurbs.knots) || !(nurbs.knots[count] > nurbs.knots[degree])) {
+        throw DescriptionError(
+            "\"knots\" must not decrease, and the curve needs an interval between knots of the middle");
     }
     std::vector<Point<double>> controls(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -57,7 +54,7 @@ std::vector<BezierPiece<double>> pieces_of(const ProgrammedNurbs& nurbs, std::ve
     breaks.resize(pieces.size() + 1);
     if (const Status status = bezier_pieces<double>(nurbs.knots, nurbs.degree, controls, 4, false, pieces, breaks);
         !status.ok()) {
-        refuse(describe(status.error()));
+        throw DescriptionError(describe(status.error()));
     }
     return pieces;
 }
@@ -80,7 +77,7 @@ void add_parts(const BezierPiece<double>& piece, double from, double width, std:
     };
     const std::vector<HermitePiece> quintics = hermite_pieces(within, {0.0, 1.0}); // alone: a knot may be a kink
     if (quintics.empty()) {
-        refuse(not_followed);
+        throw DescriptionError(not_followed);
     }
     for (const HermitePiece& quintic : quintics) {
         parts.push_back({5, from + quintic.to * width, quintic.points});
@@ -96,7 +93,7 @@ Vector3 linear(const AxisPoint& place) {
 ElementCurves::ElementCurves(ElementProgram& program, const std::vector<std::string>& axes)
     : program_(&program), names_(axes) {
     for (std::size_t j = 0; j < letters.size(); ++j) {
-        const auto found = std::find(axes.begin(), axes.end(), letters[j]);
+        const auto found = std::ranges::find(axes, letters[j]);
         index_[j] = found == axes.end() ? -1 : static_cast<int>(found - axes.begin());
     }
     const std::size_t first = std::min<std::size_t>(axes.size(), 3);
@@ -124,17 +121,17 @@ void ElementCurves::start(const AxisPoint& from) {
 void ElementCurves::require_connected(const AxisPoint& from, double gap_mm) const {
     for (std::size_t j = 0; j < from.size(); ++j) {
         if (std::fabs(from[j] - here_[j]) > gap_mm) {
-            refuse(fmt::format("it starts at {} {:.9g}, but the element before it ends at {:.9g}; they must meet "
-                               "within {} mm",
-                               letters[j], from[j], here_[j], gap_mm));
+            throw DescriptionError("it starts at {} {:.9g}, but the element before it ends at {:.9g}; they must meet "
+                                   "within {} mm",
+                                   letters[j], from[j], here_[j], gap_mm);
         }
     }
 }
 
 void ElementCurves::require_still(std::size_t axis, double way) const {
     if (index_[axis] < 0 && way > still_mm) {
-        refuse(fmt::format("it moves axis {}, and the machine has none; it has {}", letters[axis],
-                           fmt::join(names_, ", ")));
+        throw DescriptionError("it moves axis {}, and the machine has none; it has {}", letters[axis],
+                               fmt::join(names_, ", "));
     }
 }
 
@@ -143,8 +140,8 @@ void ElementCurves::require_reachable(const AxisPoint& to) const {
         const double way = std::fabs(to[j] - here_[j]);
         require_still(j, way);
         if (way > longest_mm) {
-            refuse(fmt::format("it moves {} by {:.9g} mm; an element must be at most {} mm long", letters[j], way,
-                               longest_mm));
+            throw DescriptionError("it moves {} by {:.9g} mm; an element must be at most {} mm long", letters[j], way,
+                                   longest_mm);
         }
     }
 }
@@ -152,10 +149,10 @@ void ElementCurves::require_reachable(const AxisPoint& to) const {
 void ElementCurves::require_ends(const Vector3& first, const Vector3& last, const AxisPoint& to) const {
     for (std::size_t j = 0; j < 3; ++j) {
         if (std::fabs(first[j] - here_[j]) > end_gap_mm || std::fabs(last[j] - to[j]) > end_gap_mm) {
-            refuse(
-                fmt::format("the curve must begin at \"from\" and end at \"to\" within {} mm; it goes from {} {:.9g} "
-                            "to {:.9g}",
-                            end_gap_mm, letters[j], first[j], last[j]));
+            throw DescriptionError(
+                "the curve must begin at \"from\" and end at \"to\" within {} mm; it goes from {} {:.9g} "
+                "to {:.9g}",
+                end_gap_mm, letters[j], first[j], last[j]);
         }
     }
 }
@@ -173,25 +170,25 @@ void ElementCurves::add_arc(const ElementProgram::Move& move, const AxisPoint& t
     require_reachable(to);
     const double norm = std::hypot(axis[0], axis[1], axis[2]);
     if (!(norm > 1e-6)) {
-        refuse("\"axis\" has no direction; it must be a vector like [0, 0, 1]");
+        throw DescriptionError("\"axis\" has no direction; it must be a vector like [0, 0, 1]");
     }
     const Vector3 normal{axis[0] / norm, axis[1] / norm, axis[2] / norm};
     const ProgrammedArc arc(linear(here_), linear(to), centre, normal, angle);
     const double smaller = std::fmin(arc.radius_from(), arc.radius_to());
     if (smaller < least_radius_mm) {
-        refuse(fmt::format("its radius is {:.3g} mm; it must be at least {} mm: check \"centre\"", smaller,
-                           least_radius_mm));
+        throw DescriptionError("its radius is {:.3g} mm; it must be at least {} mm: check \"centre\"", smaller,
+                               least_radius_mm);
     }
     if (arc.length() > longest_mm || arc.radius_from() + arc.radius_to() > longest_mm) {
-        refuse(fmt::format("an arc's length and diameter must be at most {} mm; make it of several, or of lines",
-                           longest_mm));
+        throw DescriptionError("an arc's length and diameter must be at most {} mm; make it of several, or of lines",
+                               longest_mm);
     }
     if (arc.mismatch() > arc_mismatch_mm) {
-        refuse(fmt::format("\"angle\" {:.9g} ends {:.3g} mm from \"to\"; to end there it would be {:.9g}", angle,
-                           arc.mismatch(), arc.angle()));
+        throw DescriptionError("\"angle\" {:.9g} ends {:.3g} mm from \"to\"; to end there it would be {:.9g}", angle,
+                               arc.mismatch(), arc.angle());
     }
     if (angle == 0.0) {
-        refuse("\"angle\" is 0: an arc must turn; a full circle has 6.283185307");
+        throw DescriptionError("\"angle\" is 0: an arc must turn; a full circle has 6.283185307");
     }
     if (std::fabs(arc.angle()) * smaller < least_radius_mm) { // no further from its chord than rounding is
         add_line(move, to);
@@ -223,7 +220,8 @@ void ElementCurves::add_arc(const ElementProgram::Move& move, const AxisPoint& t
 void ElementCurves::add_bezier(const ElementProgram::Move& move, const AxisPoint& to,
                                const std::vector<Vector3>& points) {
     if (points.size() < 2 || points.size() > 6) {
-        refuse(fmt::format("there are {} control points; a Bezier segment has 2 to 6 (degree 1 to 5)", points.size()));
+        throw DescriptionError("there are {} control points; a Bezier segment has 2 to 6 (degree 1 to 5)",
+                               points.size());
     }
     require_reachable(to);
     require_ends(points.front(), points.back(), to);
@@ -251,7 +249,7 @@ void ElementCurves::add_nurbs(const ElementProgram::Move& move, const AxisPoint&
 void ElementCurves::add_pieces(const ElementProgram::Move& move, const AxisPoint& to,
                                const std::vector<HermitePiece>& pieces) {
     if (pieces.empty()) {
-        refuse(not_followed);
+        throw DescriptionError(not_followed);
     }
     const AxisPoint start = here_;
     for (const HermitePiece& piece : pieces) {
@@ -283,8 +281,8 @@ void ElementCurves::add_piece(ElementProgram::Move move, const AxisPoint& from, 
             const double offset = value - from[j];
             require_still(j, std::fabs(offset) > end_gap_mm ? std::fabs(offset) : 0.0);
             if (std::fabs(offset) > longest_mm) {
-                refuse(fmt::format("a control point is {:.9g} mm from the start along {}; it must be at most {} mm",
-                                   std::fabs(offset), letters[j], longest_mm));
+                throw DescriptionError("a control point is {:.9g} mm from the start along {}; it must be at most {} mm",
+                                       std::fabs(offset), letters[j], longest_mm);
             }
             if (index_[j] >= 0) {
                 shape.points[static_cast<unsigned>(index_[j])][static_cast<unsigned>(i)] = offset * chord_units_per_mm;

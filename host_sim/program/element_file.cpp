@@ -40,36 +40,34 @@ public:
     [[nodiscard]] ElementProgram program() {
         const auto elements = document_.find("elements");
         if (!elements->is_array() || elements->empty()) {
-            fail("\"elements\" must be an array of at least one element");
+            throw InputError(file_, 0, "\"elements\" must be an array of at least one element");
         }
         if (elements->size() > most_elements) {
-            fail(fmt::format("there are {} elements; a file has at most {}", elements->size(), most_elements));
+            throw InputError(file_, 0, "there are {} elements; a file has at most {}", elements->size(), most_elements);
         }
         for (const json& element : *elements) {
             try {
                 add(element);
             } catch (const DescriptionError& error) {
-                fail(fmt::format("{}: {}", name_, error.what()));
+                throw InputError(file_, 0, "{}: {}", name_, error.what());
             }
         }
         try {
             stops("dwells");
             stops("events");
         } catch (const DescriptionError& error) {
-            fail(error.what());
+            throw InputError(file_, 0, error.what());
         }
         return std::move(program_);
     }
 
 private:
-    [[noreturn]] void fail(std::string_view what) const { throw InputError(file_, 0, what); }
-    [[noreturn]] static void refuse(const std::string& what) { throw DescriptionError(what); }
-
     void add(const json& element) {
         const auto index = static_cast<std::uint32_t>(program_.elements());
         name_ = element_name(index, 0);
         if (!element.is_object()) {
-            refuse(R"(it must be an object, like {"type": "line", "from": [0, 0, 0], "to": [10, 5, 0]})");
+            throw DescriptionError(
+                R"(it must be an object, like {"type": "line", "from": [0, 0, 0], "to": [10, 5, 0]})");
         }
         const std::uint32_t line = line_number(element);
         name_ = element_name(index, line);
@@ -100,7 +98,7 @@ private:
         } else if (shape == "nurbs") {
             curves_.add_nurbs(move, to, nurbs(element));
         } else {
-            refuse(R"("type" must be "line", "arc", "bezier" or "nurbs")");
+            throw DescriptionError(R"("type" must be "line", "arc", "bezier" or "nurbs")");
         }
     }
 
@@ -114,11 +112,11 @@ private:
 
     static void require_no_misprint(const json& element) {
         for (const auto& [key, value] : element.items()) {
-            if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) {
+            if (std::ranges::find(known_keys, key) != known_keys.end()) {
                 continue;
             }
             if (const std::string_view near = nearest_name(key, known_keys); !near.empty()) {
-                refuse(fmt::format("there is no key {}; did you mean '{}'?", in_quotes(key), near));
+                throw DescriptionError("there is no key {}; did you mean '{}'?", in_quotes(key), near);
             }
         }
     }
@@ -126,7 +124,7 @@ private:
     [[nodiscard]] static double coordinate(const json& value, std::string_view what) {
         const double mm = number_of(value, what);
         if (!position_representable(mm)) {
-            refuse(fmt::format("{} has the coordinate {}; a position must lie within +-1048576 mm", what, mm));
+            throw DescriptionError("{} has the coordinate {}; a position must lie within +-1048576 mm", what, mm);
         }
         return mm;
     }
@@ -134,7 +132,7 @@ private:
     [[nodiscard]] static AxisPoint point(const json& element, const char* key) {
         const auto found = element.find(key);
         if (found == element.end() || !found->is_array() || found->size() < 3 || found->size() > 6) {
-            refuse(fmt::format("\"{}\" must be an array of three to six numbers: x, y, z, a, b, c", key));
+            throw DescriptionError("\"{}\" must be an array of three to six numbers: x, y, z, a, b, c", key);
         }
         AxisPoint out{};
         for (std::size_t k = 0; k < found->size(); ++k) {
@@ -145,7 +143,7 @@ private:
 
     [[nodiscard]] static Vector3 vector_of(const json& value, const std::string& what) {
         if (!value.is_array() || value.size() != 3) {
-            refuse(fmt::format("{} must be an array of three numbers: x, y, z", what));
+            throw DescriptionError("{} must be an array of three numbers: x, y, z", what);
         }
         return {coordinate(value[0], what), coordinate(value[1], what), coordinate(value[2], what)};
     }
@@ -158,7 +156,7 @@ private:
     [[nodiscard]] static std::vector<Vector3> vectors(const json& element) {
         const auto found = element.find("control_points");
         if (found == element.end() || !found->is_array()) {
-            refuse("\"control_points\" must be an array of points, each with x, y, z");
+            throw DescriptionError("\"control_points\" must be an array of points, each with x, y, z");
         }
         std::vector<Vector3> points;
         for (const json& value : *found) {
@@ -170,7 +168,7 @@ private:
     [[nodiscard]] static std::vector<double> numbers(const json& element, const char* key) {
         const auto found = element.find(key);
         if (found == element.end() || !found->is_array()) {
-            refuse(fmt::format("\"{}\" must be an array of numbers", key));
+            throw DescriptionError("\"{}\" must be an array of numbers", key);
         }
         std::vector<double> out;
         for (const json& value : *found) {
@@ -197,7 +195,8 @@ private:
     [[nodiscard]] static double feed(const json& element) {
         const double feed = number_in(element, "feed_mm_s", 0.0);
         if (element.contains("feed_mm_s") && !(feed >= slowest_feed && feed <= fastest_feed)) {
-            refuse(fmt::format("\"feed_mm_s\" is {}; it must lie between {} and {}", feed, slowest_feed, fastest_feed));
+            throw DescriptionError("\"feed_mm_s\" is {}; it must lie between {} and {}", feed, slowest_feed,
+                                   fastest_feed);
         }
         return feed;
     }
@@ -210,7 +209,7 @@ private:
     static double stated_tolerance(const json& element, const char* key, double otherwise) {
         const double stated = number_in(element, key, otherwise);
         if (!(stated >= 0.0 && stated <= largest_tolerance_mm)) {
-            refuse(fmt::format("\"{}\" is {}; it must lie between 0 and {}", key, stated, largest_tolerance_mm));
+            throw DescriptionError("\"{}\" is {}; it must lie between 0 and {}", key, stated, largest_tolerance_mm);
         }
         return stated;
     }
@@ -222,7 +221,7 @@ private:
             return;
         }
         if (!list->is_array()) {
-            refuse(fmt::format("\"{}\" must be an array", key));
+            throw DescriptionError("\"{}\" must be an array", key);
         }
         for (std::size_t i = 0; i < list->size(); ++i) {
             const json& stop = (*list)[i];
@@ -230,14 +229,14 @@ private:
             const auto place = stop.is_object() ? stop.find("after_element") : stop.end();
             if (!stop.is_object() || place == stop.end() || !place->is_number_integer() ||
                 place->get<std::int64_t>() < 0 || place->get<std::uint64_t>() > program_.elements()) {
-                refuse(fmt::format("{} must have \"after_element\": how many elements come before it, 0 to {}", what,
-                                   program_.elements()));
+                throw DescriptionError("{} must have \"after_element\": how many elements come before it, 0 to {}",
+                                       what, program_.elements());
             }
             program_.stop_before(place->get<std::uint32_t>());
             if (std::string_view(key) == "dwells") {
                 const double seconds = number_of(stop.value("seconds", json()), what + ", \"seconds\"");
                 if (!(seconds >= 0.0 && seconds <= longest_dwell_s)) {
-                    refuse(fmt::format("{} lasts {} s; it must be 0 to {}", what, seconds, longest_dwell_s));
+                    throw DescriptionError("{} lasts {} s; it must be 0 to {}", what, seconds, longest_dwell_s);
                 }
                 program_.add_dwell(place->get<std::uint32_t>(), seconds);
             }

@@ -23,22 +23,14 @@ void ElementProgram::add_bezier(const Move& move, const BezierShape<double>& bez
 }
 
 void ElementProgram::stop_before(std::uint32_t element) noexcept {
-    // Moves are in the order of their elements.
-    std::size_t low = 0;
-    std::size_t high = moves_.size();
-    while (low < high) {
-        const std::size_t middle = (low + high) / 2;
-        (moves_[middle].element < element ? low : high) = moves_[middle].element < element ? middle + 1 : middle;
-    }
-    if (low > 0) {
-        moves_[low - 1].stop_at_end = true;
+    const auto behind = std::ranges::lower_bound(moves_, element, {}, &Move::element); // in the order of their elements
+    if (behind != moves_.begin()) {
+        std::prev(behind)->stop_at_end = true;
     }
 }
 
 void ElementProgram::add_dwell(std::uint32_t before, double seconds) {
-    const auto behind = std::upper_bound(dwells_.begin(), dwells_.end(), before,
-                                         [](std::uint32_t place, const Dwell& dwell) { return place < dwell.before; });
-    dwells_.insert(behind, {before, seconds});
+    dwells_.insert(std::ranges::upper_bound(dwells_, before, {}, &Dwell::before), {before, seconds});
 }
 
 PathElement<double> ElementProgram::element(std::size_t move) const noexcept {

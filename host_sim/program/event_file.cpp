@@ -8,25 +8,12 @@
 #include "host_sim/base/trimmed_text.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 24;
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) {
-            return fields;
-        }
-        line.remove_prefix(comma + 1);
-    }
-}
 
 /// A number in the range of the row; false otherwise.
 bool take_number(std::string_view text, const FileKey& row, double& out) {
@@ -35,38 +22,37 @@ bool take_number(std::string_view text, const FileKey& row, double& out) {
 
 OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::string& path, std::uint64_t line,
                        double before_s) {
-    const auto refuse = [&](const std::string& text) {
-        throw InputError(path, line, text);
-    };
     OperatorEvent event;
     event.line = line;
     if (const FileKey& row = operator_event_table.row("t"); !take_number(fields[0], row, event.time_s)) {
-        refuse(
-            fmt::format("{}: the time must be a number of seconds, {} to {}", in_quotes(fields[0]), row.low, row.high));
+        throw InputError(path, line, "{}: the time must be a number of seconds, {} to {}", in_quotes(fields[0]),
+                         row.low, row.high);
     }
     if (event.time_s < before_s) {
-        refuse(fmt::format("{} s is before the event above, at {} s; put the rows in order of time", event.time_s,
-                           before_s));
+        throw InputError(path, line, "{} s is before the event above, at {} s; put the rows in order of time",
+                         event.time_s, before_s);
     }
     if (fields.size() < 2 || fields[1].empty()) {
-        refuse("the row has a time only; it must be like 0.5,hold or 0.5,override,0.8");
+        throw InputError(path, line, "the row has a time only; it must be like 0.5,hold or 0.5,override,0.8");
     }
-    const auto* const name = std::find(std::begin(operation_names), std::end(operation_names), fields[1]);
+    const auto* const name = std::ranges::find(operation_names, fields[1]);
     if (name == std::end(operation_names)) {
-        refuse(fmt::format("there is no event {}{}", in_quotes(fields[1]), suggestion(fields[1], operation_names)));
+        throw InputError(path, line, "there is no event {}{}", in_quotes(fields[1]),
+                         suggestion(fields[1], operation_names));
     }
     event.operation = static_cast<Operation>(name - operation_names);
     const bool has_value = fields.size() > 2 && !fields[2].empty();
     if (fields.size() > 3) {
-        refuse(fmt::format("the row has {} fields; it must be like 0.5,hold or 0.5,override,0.8", fields.size()));
+        throw InputError(path, line, "the row has {} fields; it must be like 0.5,hold or 0.5,override,0.8",
+                         fields.size());
     }
     if (event.operation != Operation::override_feed && has_value) {
-        refuse(fmt::format("{} takes no value; leave {} out", fields[1], in_quotes(fields[2])));
+        throw InputError(path, line, "{} takes no value; leave {} out", fields[1], in_quotes(fields[2]));
     }
     const FileKey& row = operator_event_table.row("value");
     if (event.operation == Operation::override_feed && !(has_value && take_number(fields[2], row, event.value))) {
-        refuse(fmt::format("{}: the value of an override must be a number from {} to {}",
-                           in_quotes(has_value ? fields[2] : ""), row.low, row.high));
+        throw InputError(path, line, "{}: the value of an override must be a number from {} to {}",
+                         in_quotes(has_value ? fields[2] : ""), row.low, row.high);
     }
     return event;
 }
@@ -85,7 +71,8 @@ std::vector<OperatorEvent> read_event_file(const std::string& path) {
         if (row.empty() || row.front() == '#') {
             continue;
         }
-        const std::vector<std::string_view> fields = fields_of(row);
+        std::vector<std::string_view> fields = split(row, ',');
+        std::ranges::transform(fields, fields.begin(), trimmed);
         const bool header = first && fields[0] == "t";
         first = false;
         if (!header) {

@@ -5,11 +5,11 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 
+#include "host_sim/base/trimmed_text.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <iterator>
 
 namespace splinefeed::host {
@@ -24,7 +24,7 @@ bool is_letter(char c) {
 
 std::string in_capitals(std::string_view text) {
     std::string upper(text);
-    std::transform(upper.begin(), upper.end(), upper.begin(), upper_case);
+    std::ranges::transform(upper, upper.begin(), upper_case);
     return upper;
 }
 
@@ -51,10 +51,10 @@ IgnoredWord ignored_word(std::string_view word) {
     const double tenths = numeric ? number * 10.0 : -1.0;
     if (!is_letter(out.letter) || !(tenths >= 0.0 && tenths <= 10.0 * largest_word) ||
         std::fabs(tenths - std::round(tenths)) > 1e-6) {
-        throw UsageError(fmt::format(
+        throw UsageError(
             "--ignore: {} is no word; name words like M104,E, separated by commas, the first word of whole lines "
             "like START_PRINT or $*, or unknown",
-            in_quotes(word)));
+            in_quotes(word));
     }
     out.tenths = static_cast<std::int16_t>(std::lround(tenths));
     return out;
@@ -75,30 +75,24 @@ std::string_view first_option(const GcodeArguments& arguments) noexcept {
 GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
     GcodeSettings out;
     if (arguments.dialect) {
-        const auto* const found =
-            std::find(std::begin(dialect_names), std::end(dialect_names), std::string_view(*arguments.dialect));
+        const auto* const found = std::ranges::find(dialect_names, std::string_view(*arguments.dialect));
         if (found == std::end(dialect_names)) {
-            throw UsageError(fmt::format("--dialect {}: it must be one of {}", in_quotes(*arguments.dialect),
-                                         listed(dialect_names)));
+            throw UsageError("--dialect {}: it must be one of {}", in_quotes(*arguments.dialect),
+                             listed(dialect_names));
         }
         out.guess_dialect = *found == "auto";
         out.dialect = out.guess_dialect ? Dialect::linuxcnc : static_cast<Dialect>(found - std::begin(dialect_names));
     }
     const std::string ignored = arguments.ignore.value_or("");
-    for (std::string_view rest = ignored; arguments.ignore;) {
-        const std::size_t comma = rest.find(',');
-        const std::string part = in_capitals(rest.substr(0, comma));
+    for (const std::string_view word : arguments.ignore ? split(ignored, ',') : std::vector<std::string_view>{}) {
+        const std::string part = in_capitals(word);
         if (part == "UNKNOWN") {
             out.ignores_unknown = true;
         } else if (begins_line(part)) {
             out.ignored_lines.push_back(part);
         } else {
-            out.ignored.push_back(ignored_word(rest.substr(0, comma)));
+            out.ignored.push_back(ignored_word(word));
         }
-        if (comma == std::string_view::npos) {
-            break;
-        }
-        rest.remove_prefix(comma + 1);
     }
     if (arguments.tools) {
         out.tools = read_tool_file(*arguments.tools);

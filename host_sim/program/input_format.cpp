@@ -6,6 +6,7 @@
 
 #include "splinefeed/s0_program/text_cursor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <istream>
 
@@ -49,12 +50,8 @@ constexpr std::array formats{
 } // namespace
 
 const InputFormat* input_format(std::string_view name) noexcept {
-    for (const InputFormat& format : formats) {
-        if (format.name == name) {
-            return &format;
-        }
-    }
-    return nullptr;
+    const auto* const format = std::ranges::find(formats, name, &InputFormat::name);
+    return format != formats.end() ? format : nullptr;
 }
 
 const InputFormat* format_of_suffix(std::string_view suffix) noexcept {

@@ -2,7 +2,7 @@
 // InputFormat: the formats that a path may be read from, by their names. A new one is a row in input_format.cpp.
 #pragma once
 
-#include "host_sim/program/waypoint_rows.hpp"
+#include "host_sim/program/waypoint_row.hpp"
 
 #include <memory>
 #include <string>

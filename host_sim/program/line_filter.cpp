@@ -60,7 +60,7 @@ std::string_view macro_name(std::string_view line) noexcept {
     if (text.size() < 2 || !(begins_name(text[0]) || text[0] == '_') || !(begins_name(text[1]) || text[1] == '_')) {
         return {};
     }
-    const auto* const end = std::find_if_not(text.begin(), text.end(), is_in_name);
+    const auto* const end = std::ranges::find_if_not(text, is_in_name);
     const auto size = static_cast<std::size_t>(end - text.begin());
     // X SIN[30] is a word, and so is an O word.
     const bool calls = size < text.size() && (text[size] == '[' || text[size] == '#' || text[size] == '<');
@@ -81,8 +81,7 @@ bool fits(std::string_view pattern, std::string_view word) noexcept {
 }
 
 bool is_still_macro(std::string_view name) noexcept {
-    return std::any_of(std::begin(still_macros), std::end(still_macros),
-                       [&](std::string_view macro) { return fits(macro, name); });
+    return std::ranges::any_of(still_macros, [&](std::string_view macro) { return fits(macro, name); });
 }
 
 std::string_view left_out_line(std::string_view line, const GcodeSettings& settings) noexcept {

@@ -39,7 +39,7 @@ PathInput::Content PathInput::open(const PathArguments& arguments, PathUse use, 
         return open_description(arguments, use);
     }
     if (const std::string_view option = first_option(arguments.gcode); !option.empty() && !format_->is_gcode()) {
-        throw UsageError(fmt::format("{}: only a program in G-code has it; leave the option out", option));
+        throw UsageError("{}: only a program in G-code has it; leave the option out", option);
     }
     if (format_->is_gcode()) {
         return open_gcode(arguments, use, machine);
@@ -62,9 +62,9 @@ PathInput::Content PathInput::open_waypoints(const PathArguments& arguments, Pat
     const bool within_tolerance = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
     if (opened.has_tolerances && choice_.method != "polyline") {
         throw InputError(name_, 0,
-                         fmt::format("there is a column tolerance, and --curve {} has none; add --curve polyline, or "
-                                     "leave the column out",
-                                     choice_.method));
+                         "there is a column tolerance, and --curve {} has none; add --curve polyline, or "
+                         "leave the column out",
+                         choice_.method);
     }
     if (within_tolerance && choice_.closed) {
         throw InputError(name_, 0,
@@ -83,15 +83,15 @@ CurveFile PathInput::compute_from_points(const PointsMethod& method, WaypointRow
     while (rows.next(row)) {
         if (points_read_ == most_points) {
             throw InputError(name_, row.line,
-                             fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
-                                         "curve, which streams (g2), or fewer points",
-                                         choice_.method, most_points));
+                             "--curve {} is made of all points at once, and takes at most {}; take another "
+                             "curve, which streams (g2), or fewer points",
+                             choice_.method, most_points);
         }
         if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
             throw InputError(name_, row.line,
-                             fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "
-                                         "feed, max_feed and corner",
-                                         choice_.method));
+                             "--curve {} takes all points as one smooth curve; leave out the columns "
+                             "feed, max_feed and corner",
+                             choice_.method);
         }
         if (points.empty() || !merged(points.back(), row.position)) {
             points.push_back(row.position);
@@ -115,7 +115,7 @@ CurveFile PathInput::compute_from_points(const PointsMethod& method, WaypointRow
 
 PathInput::Content PathInput::open_description(const PathArguments& arguments, PathUse use) {
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
-        throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
+        throw UsageError("{}: a curve file says itself which curve it is; leave the option out", option);
     }
     const nlohmann::json document = parse_json(read_text_file(path_, largest_curve_file, name_), name_);
     if (has_elements(document)) {
@@ -135,9 +135,8 @@ PathInput::Content PathInput::open_description(const PathArguments& arguments, P
     axes_ = machine_axes_.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file.axes)
                                   : machine_axes_;
     if (count > axes_.size()) {
-        throw InputError(name_, 0,
-                         fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
-                                     fmt::join(axes_, ", ")));
+        throw InputError(name_, 0, "the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
+                         fmt::join(axes_, ", "));
     }
     return file;
 }
@@ -156,8 +155,7 @@ ElementProgram PathInput::open_elements(const PathArguments& arguments, const nl
 
 GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use, const PathMachine& machine) {
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
-        throw UsageError(
-            fmt::format("{}: a program in G-code says itself what its path is; leave the option out", option));
+        throw UsageError("{}: a program in G-code says itself what its path is; leave the option out", option);
     }
     if (arguments.curve.smooth) {
         throw UsageError("--smooth: a program in G-code is smoothed within its tolerance; leave the option out");

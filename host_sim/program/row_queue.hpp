@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/program/source_line.hpp"
-#include "host_sim/program/waypoint_rows.hpp"
+#include "host_sim/program/waypoint_row.hpp"
 
 #include <condition_variable>
 #include <deque>

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fmt/format.h>
 #include <ios>
 
 namespace splinefeed::host {
@@ -34,8 +33,7 @@ bool LineReader::next(SourceLine& out) {
             const std::size_t end = here.find('\n');
             const std::string_view part = here.substr(0, end);
             if (out.text.size() + part.size() > longest_line) {
-                throw InputError(name_, lines_,
-                                 fmt::format("the line is longer than {} bytes; is it a text file?", longest_line));
+                throw InputError(name_, lines_, "the line is longer than {} bytes; is it a text file?", longest_line);
             }
             out.text += part;
             input_.skip(std::min(part.size() + 1, here.size()));

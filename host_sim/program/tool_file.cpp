@@ -9,7 +9,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -41,22 +40,21 @@ public:
             } else if (letter == 'Q') {
                 out.orientation = whole(letter, "orientation of a tip", value, largest_orientation);
             } else if (std::string_view("PIJ").find(letter) == std::string_view::npos) {
-                refuse(fmt::format("'{}' is no letter of a tool; a line is like T1 P1 Z12.5 D6 ;remark", letter));
+                throw InputError(file_, line_, "'{}' is no letter of a tool; a line is like T1 P1 Z12.5 D6 ;remark",
+                                 letter);
             }
             any_ = true;
         }
         if (any_ && tool < 0) {
-            refuse("there is no T; a line is like T1 P1 Z12.5 D6 ;remark");
+            throw InputError(file_, line_, "there is no T; a line is like T1 P1 Z12.5 D6 ;remark");
         }
         return any_;
     }
 
-    [[noreturn]] void refuse(const std::string& text) const { throw InputError(file_, line_, text); }
-
 private:
     [[nodiscard]] std::int32_t whole(char letter, std::string_view what, double value, std::int32_t most) const {
         if (!(value >= 0.0 && value <= most) || value != std::floor(value)) {
-            refuse(fmt::format("{}{} is no {}; its number is 0 to {}", letter, value, what, most));
+            throw InputError(file_, line_, "{}{} is no {}; its number is 0 to {}", letter, value, what, most);
         }
         return static_cast<std::int32_t>(value);
     }
@@ -73,7 +71,7 @@ private:
         const auto [end, error] =
             std::from_chars(text_.data(), text_.data() + text_.size(), value, std::chars_format::fixed);
         if (error != std::errc{} || !(std::abs(value) <= farthest_mm)) {
-            refuse(fmt::format("a number of at most {} must follow {}", farthest_mm, letter));
+            throw InputError(file_, line_, "a number of at most {} must follow {}", farthest_mm, letter);
         }
         text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
         return value;
@@ -97,7 +95,7 @@ ToolRows read_tool_file(const std::string& path) {
         std::int32_t tool = 0;
         ToolRow values;
         if (row.read(tool, values) && !rows.emplace(tool, values).second) {
-            row.refuse(fmt::format("tool {} stands in the file twice; leave one of its lines out", tool));
+            throw InputError(path, line, "tool {} stands in the file twice; leave one of its lines out", tool);
         }
         rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     }

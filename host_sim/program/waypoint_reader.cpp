@@ -21,7 +21,7 @@ constexpr std::string_view axis_letters = "xyzabc";
 
 std::string lower(std::string_view text) {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), lower_case);
+    std::ranges::transform(out, out.begin(), lower_case);
     return out;
 }
 
@@ -38,18 +38,14 @@ bool take_field(std::string_view& rest, bool& more, std::string_view& field) {
 }
 
 std::size_t count_fields(std::string_view line) {
-    return 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+    return 1 + static_cast<std::size_t>(std::ranges::count(line, ','));
 }
 
 } // namespace
 
-void WaypointReader::fail(std::string_view text) const {
-    throw InputError(file_, line_, text);
-}
-
 void WaypointReader::refuse(const std::string& text) const {
     if (!text.empty()) {
-        fail(text);
+        throw InputError(file_, line_, text);
     }
 }
 
@@ -130,7 +126,7 @@ bool WaypointReader::next_line(std::string_view& line) {
             found != nullptr ? static_cast<std::size_t>(static_cast<const char*>(found) - start) : length;
         if (size > longest_line) {
             ++line_;
-            fail(fmt::format("the line is longer than {} bytes; write one waypoint a line", longest_line));
+            throw InputError(file_, line_, "the line is longer than {} bytes; write one waypoint a line", longest_line);
         }
         if (found != nullptr || (ended_ && length > 0)) {
             ++line_;
@@ -179,7 +175,7 @@ bool WaypointReader::is_header(std::string_view line) {
 }
 
 int WaypointReader::axis_index(std::string_view name) const {
-    const auto found = std::find(axes_.begin(), axes_.end(), name);
+    const auto found = std::ranges::find(axes_, name);
     return found != axes_.end() ? static_cast<int>(found - axes_.begin()) : no_column;
 }
 
@@ -206,30 +202,31 @@ void WaypointReader::read_header(std::string_view line) {
                                                  : axis_index(name);
         if (column == no_column) {
             if (name.size() == 1 && axis_letters.find(name.front()) != std::string_view::npos) {
-                fail(fmt::format("there is a column {}, but the machine has no such axis; it has {}", name,
-                                 fmt::join(axes_, ", ")));
+                throw InputError(file_, line_, "there is a column {}, but the machine has no such axis; it has {}",
+                                 name, fmt::join(axes_, ", "));
             }
             if (name.find_first_of(";\t |") != std::string::npos) {
-                fail(fmt::format("{} is no name of a column; write commas between the names, like x,y,z",
-                                 in_quotes(field)));
+                throw InputError(file_, line_, "{} is no name of a column; write commas between the names, like x,y,z",
+                                 in_quotes(field));
             }
             const std::string_view near = nearest_name(name, known);
-            fail(fmt::format("unknown column {}; a waypoint file has {}{}", in_quotes(field), listed(known),
-                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+            throw InputError(file_, line_, "unknown column {}; a waypoint file has {}{}", in_quotes(field),
+                             listed(known), near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
         }
-        if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
-            fail(fmt::format("there are two columns {}; name each once", column_name(column)));
+        if (std::ranges::find(columns_, column) != columns_.end()) {
+            throw InputError(file_, line_, "there are two columns {}; name each once", column_name(column));
         }
         has_axis = has_axis || column >= 0;
         columns_.push_back(column);
     }
     if (!has_axis) {
-        fail(fmt::format("there is no column of an axis; name at least one of {}", fmt::join(axes_, ", ")));
+        throw InputError(file_, line_, "there is no column of an axis; name at least one of {}",
+                         fmt::join(axes_, ", "));
     }
 }
 
 bool WaypointReader::has_tolerances() const noexcept {
-    return std::find(columns_.begin(), columns_.end(), tolerance_column) != columns_.end();
+    return std::ranges::find(columns_, tolerance_column) != columns_.end();
 }
 
 // Without a header the columns are x,y[,z[,a,b,c]].
@@ -240,20 +237,24 @@ void WaypointReader::assume_columns(std::string_view line) {
     if (count < fewest || count > most) {
         double ignored = 0.0;
         if (count == 1 && read_number(line, ignored) == NumberText::not_a_number) {
-            fail(fmt::format("{} is no waypoint; write the coordinates with commas between them, like 10,5,0",
-                             in_quotes(line)));
+            throw InputError(file_, line_,
+                             "{} is no waypoint; write the coordinates with commas between them, like 10,5,0",
+                             in_quotes(line));
         }
-        fail(fewest == most ? fmt::format("there are {} columns, and the machine has one axis: {}", count, axes_[0])
-                            : fmt::format("there are {} columns and no header; without one there must be {} to {}: {}",
-                                          count, fewest, most, fmt::join(axes_, ",")));
+        throw InputError(file_, line_,
+                         fewest == most
+                             ? fmt::format("there are {} columns, and the machine has one axis: {}", count, axes_[0])
+                             : fmt::format("there are {} columns and no header; without one there must be {} to {}: {}",
+                                           count, fewest, most, fmt::join(axes_, ",")));
     }
     for (std::size_t i = 0; i < count; ++i) {
         const int column = axis_index(axis_letters.substr(i, 1));
         if (column < 0) {
-            fail(fmt::format(
+            throw InputError(
+                file_, line_,
                 "without a header the columns are x,y,z,a,b,c, but the machine has no axis {}; name the columns "
                 "in a header row",
-                axis_letters[i]));
+                axis_letters[i]);
         }
         columns_.push_back(column);
     }
@@ -263,7 +264,7 @@ void WaypointReader::drop_absent_axes() {
     std::vector<std::string> present;
     std::vector<int> columns = columns_;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const auto found = std::find(columns_.begin(), columns_.end(), static_cast<int>(k));
+        const auto found = std::ranges::find(columns_, static_cast<int>(k));
         if (found != columns_.end()) {
             columns[static_cast<std::size_t>(found - columns_.begin())] = static_cast<int>(present.size());
             present.push_back(axes_[k]);
@@ -286,16 +287,17 @@ void WaypointReader::parse(std::string_view line, WaypointRow& row) const {
     }
     if (more) {
         const std::size_t count = count_fields(line);
-        fail(fmt::format("the row has {} value{}; there must be {}, one for each column", count, count == 1 ? "" : "s",
-                         columns_.size()));
+        throw InputError(file_, line_, "the row has {} value{}; there must be {}, one for each column", count,
+                         count == 1 ? "" : "s", columns_.size());
     }
 }
 
 void WaypointReader::parse_field(std::string_view field, int column, WaypointRow& row) const {
     if (column == corner_column) {
         if (field != "0" && field != "1" && !field.empty()) {
-            fail(fmt::format("corner is {}; it must be 1 (a corner), 0 (none) or empty (the corner angle decides)",
-                             in_quotes(field)));
+            throw InputError(file_, line_,
+                             "corner is {}; it must be 1 (a corner), 0 (none) or empty (the corner angle decides)",
+                             in_quotes(field));
         }
         row.corner = field.empty() ? Corner::automatic : field == "1" ? Corner::forced : Corner::forbidden;
         return;
@@ -309,11 +311,11 @@ void WaypointReader::parse_field(std::string_view field, int column, WaypointRow
     if (result != NumberText::number) {
         if (const std::string name = lower(field);
             name == "feed" || name == "max_feed" || name == "corner" || name == "tolerance" || axis_index(name) >= 0) {
-            fail(fmt::format("{} is a name where a number must be; only the first row can be a header",
-                             in_quotes(field)));
+            throw InputError(file_, line_, "{} is a name where a number must be; only the first row can be a header",
+                             in_quotes(field));
         }
-        fail(fmt::format("{} {} {}", column_name(column), field.empty() ? "is empty and" : in_quotes(field),
-                         why_no_number(result)));
+        throw InputError(file_, line_, "{} {} {}", column_name(column),
+                         field.empty() ? "is empty and" : in_quotes(field), why_no_number(result));
     }
     if (column == tolerance_column) {
         refuse(tolerance_refusal(value, field));

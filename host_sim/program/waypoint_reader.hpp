@@ -54,7 +54,6 @@ private:
     void check_move(const WaypointRow& row) const;
     [[nodiscard]] std::string column_name(int column) const;
     [[nodiscard]] int axis_index(std::string_view name) const;
-    [[noreturn]] void fail(std::string_view text) const;
     /// Unless the text is empty.
     void refuse(const std::string& text) const;
 

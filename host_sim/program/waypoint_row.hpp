@@ -2,6 +2,7 @@
 // WaypointRow: one waypoint as an input states it, and what its numbers may be.
 #pragma once
 
+#include "host_sim/program/row_source.hpp"
 #include "splinefeed/s1_curve/waypoint.hpp"
 
 #include <cstdint>
@@ -30,5 +31,7 @@ struct WaypointRow {
 [[nodiscard]] std::string tolerance_refusal(double mm, std::string_view shown);
 /// Of the way from one waypoint to the next. @param name  of the axis
 [[nodiscard]] std::string move_refusal(std::string_view name, double from_mm, double to_mm);
+
+using WaypointRows = RowSource<WaypointRow>;
 
 } // namespace splinefeed::host

@@ -105,9 +105,8 @@ std::vector<std::string> axes_of_table(std::size_t columns, const std::string& n
                                        const std::vector<std::string>& machine_axes) {
     const std::vector<std::string>& axes = machine_axes.empty() ? every_axis : machine_axes;
     if (columns == 0 || columns > axes.size()) {
-        throw InputError(name, 0,
-                         fmt::format("the points have {} coordinates; there must be 1 to {}: {}", columns, axes.size(),
-                                     fmt::join(axes, ", ")));
+        throw InputError(name, 0, "the points have {} coordinates; there must be 1 to {}: {}", columns, axes.size(),
+                         fmt::join(axes, ", "));
     }
     return machine_axes.empty() ? std::vector(axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(columns)) : axes;
 }

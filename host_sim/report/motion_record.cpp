@@ -174,7 +174,7 @@ void MotionRecord::measure(const FeedSegment& segment, double seconds) {
         }
     }
     if (!(speed_sq[0] + speed_sq[1] + speed_sq[2] > 0.0)) {
-        std::copy(std::begin(turning_sq), std::end(turning_sq), std::begin(speed_sq));
+        std::ranges::copy(turning_sq, std::begin(speed_sq));
     }
     const auto [low, high] = std::minmax({speed_sq[0], speed_sq[1], speed_sq[2]});
     values_[0] = {rounded(std::sqrt(low)), rounded(std::sqrt(high))};

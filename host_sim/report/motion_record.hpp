@@ -5,7 +5,6 @@
 #include "host_sim/analysis/limit_share.hpp"
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/program/event_file.hpp"
-#include "host_sim/report/layer_times.hpp"
 #include "host_sim/report/line_times.hpp"
 #include "host_sim/report/target_record.hpp"
 #include "host_sim/report/thinned_path.hpp"

@@ -75,7 +75,7 @@ void ThinnedPath::take(const Point& point) {
 }
 
 void ThinnedPath::thin() {
-    const auto kept = std::count_if(points_.begin(), points_.end(), [](const Point& point) { return point.keep; });
+    const auto kept = std::ranges::count_if(points_, [](const Point& point) { return point.keep; });
     keeps_ = keeps_ && static_cast<std::size_t>(kept) < most_ / 4 * 3;
     edges_ = false;
     tolerance_ *= 2.0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/check_program.hpp"
+#include "host_sim/run/runner.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/program_report_text.hpp"
 #include "host_sim/output/progress.hpp"
@@ -101,9 +100,7 @@ void write_problems(const RunArguments& arguments, const MachineDescription& mac
 
 int check_program(const RunArguments& arguments) {
     const RunMachine of(machine_of(arguments), *arguments.path.format);
-    if (const std::string note = note_of(machine_of(arguments), of.machine); !note.empty()) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
+    tell_note(note_of(machine_of(arguments), of.machine));
     const PlanFigures figures = plan_figures(arguments.path.scalar, of.machine);
     PathInput input(arguments.path, PathUse::executed, of.path());
     if (input.gcode() == nullptr) {

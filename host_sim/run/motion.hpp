@@ -13,11 +13,10 @@
 #include "host_sim/report/motion_record.hpp"
 #include "host_sim/run/kept_motion.hpp"
 #include "host_sim/run/path_watch.hpp"
-#include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
-#include "host_sim/run/user_suspend.hpp"
+#include "host_sim/run/user_pause.hpp"
 
 #include <chrono>
 #include <span>

@@ -1,20 +1,60 @@
 // SPDX-License-Identifier: MIT
-// ProgramSteps: carries out the dwells and events of a program where the motion reaches them.
+// ProgramSteps: carries out the dwells and events of a program where the motion reaches them. PendingSteps: those that
+// it has not reached yet, each with its place on the path.
 #pragma once
 
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/path_feeder.hpp"
+#include "host_sim/program/move_source.hpp"
 #include "host_sim/report/motion_record.hpp"
-#include "host_sim/run/pending_steps.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/user_pause.hpp"
-
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
+#include <deque>
+#include <optional>
 #include <utility>
 
 namespace splinefeed::host {
+
+/// A dwell or an event, behind the move of `row`.
+struct PendingStep {
+    StepKind kind = StepKind::event;
+    bool stops = false; ///< the machine stands at the end of the move
+    double dwell_s = 0.0;
+    std::uint64_t line = 0;
+    ProgramAction action{};
+    std::shared_ptr<const WorkOffsets> offsets{}; ///< what the event makes of them; null: nothing
+    std::optional<std::uint32_t> row{}; ///< of the last move before it, as segments name it; none: before every move
+    PerAxis<Position> place{};          ///< where that move ends
+    std::uint32_t short_rows = 0; ///< rows behind it with moves too short to be one: the path may have one of them
+};
+
+/// First in, first out. Memory: the steps between what the path has read and what has been travelled.
+class PendingSteps {
+public:
+    /// 0.1 um: shorter moves are none.
+    static constexpr double same_place_mm = 1e-4;
+
+    void add(PendingStep step) { steps_.push_back(std::move(step)); }
+    [[nodiscard]] bool empty() const noexcept { return steps_.empty(); }
+
+    /// The first step if the machine is past it when a segment of `row` begins; null: it is not.
+    [[nodiscard]] const PendingStep* passed(std::uint32_t row) const noexcept;
+    /// The first step if the machine has come to a standstill where it is due.
+    /// @param row  of the last segment; none: nothing has moved yet
+    /// @param position_mm  of the axes
+    [[nodiscard]] const PendingStep* reached(std::optional<std::uint32_t> row, const PerAxis<double>& position_mm,
+                                             int axes) const noexcept;
+    /// @pre not empty
+    [[nodiscard]] const PendingStep& first() const noexcept { return steps_.front(); }
+    /// Removes the first step. @pre not empty
+    PendingStep take();
+
+private:
+    std::deque<PendingStep> steps_;
+};
 
 /// A dwell is standstill, segment by segment, so it takes the machine's time on every target. Events happen at the
 /// begin of the segment after their place.

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,11 +66,10 @@ void RunMachine::settle_places(MachineState& state, const std::string& file) con
         }
     }
     if (!unknown.empty() && !state.unknown_why.empty()) {
-        throw InputError(
-            file, 0,
-            fmt::format("where {} {} is not known: {}; let the machine find its references with --home, or "
-                        "say with --position where it stands",
-                        fmt::join(unknown, ", "), unknown.size() == 1 ? "stands" : "stand", state.unknown_why));
+        throw InputError(file, 0,
+                         "where {} {} is not known: {}; let the machine find its references with --home, or "
+                         "say with --position where it stands",
+                         fmt::join(unknown, ", "), unknown.size() == 1 ? "stands" : "stand", state.unknown_why);
     }
 }
 
@@ -83,21 +83,18 @@ MachineState RunMachine::state(const std::string& state, const std::string& posi
     if (position.empty()) {
         return out;
     }
-    std::string_view rest = position;
+    const std::vector<std::string_view> parts = split(position, ',');
     for (std::size_t k = 0; k < axes.size(); ++k) {
-        const std::size_t comma = rest.find(',');
-        const bool last = k + 1 == axes.size();
         double mm = 0.0;
-        if (read_number(rest.substr(0, comma), mm) != NumberText::number || (comma == std::string_view::npos) != last) {
-            throw UsageError(fmt::format("--position {}: it must be a number for each axis, {}", in_quotes(position),
-                                         fmt::join(axes, ",")));
+        if (read_number(parts[k], mm) != NumberText::number || (k + 1 == parts.size()) != (k + 1 == axes.size())) {
+            throw UsageError("--position {}: it must be a number for each axis, {}", in_quotes(position),
+                             fmt::join(axes, ","));
         }
         if (!position_representable(mm)) {
-            throw UsageError(fmt::format("--position {}: {} is out of range; a position must lie within +-1048576 mm",
-                                         in_quotes(position), axes[k]));
+            throw UsageError("--position {}: {} is out of range; a position must lie within +-1048576 mm",
+                             in_quotes(position), axes[k]);
         }
         out.position_mm[k] = mm;
-        rest.remove_prefix(last ? rest.size() : comma + 1);
     }
     return out;
 }

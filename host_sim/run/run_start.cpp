@@ -47,9 +47,9 @@ std::optional<PerAxis<double>> RunStart::move_from(const PerAxis<double>& begin)
         return std::nullopt;
     }
     if (way_ == StartWay::move && !names_of_unknown().empty()) {
-        throw UsageError(fmt::format("--start move: nobody knows where {} stands; add --home, or --start here if the "
-                                     "machine stands where the program begins",
-                                     names_of_unknown()));
+        throw UsageError("--start move: nobody knows where {} stands; add --home, or --start here if the "
+                         "machine stands where the program begins",
+                         names_of_unknown());
     }
     PerAxis<double> from = begin;
     std::string stands;
@@ -66,11 +66,10 @@ std::optional<PerAxis<double>> RunStart::move_from(const PerAxis<double>& begin)
         return std::nullopt;
     }
     if (way_ == StartWay::check) {
-        throw UsageError(
-            fmt::format("the machine stands at{} mm, and the program begins at{} mm; add --start move, and "
-                        "it goes there in a straight line first, or --start here, if that is where it "
-                        "stands",
-                        stands, begins));
+        throw UsageError("the machine stands at{} mm, and the program begins at{} mm; add --start move, and "
+                         "it goes there in a straight line first, or --start here, if that is where it "
+                         "stands",
+                         stands, begins);
     }
     return from;
 }

@@ -2,10 +2,8 @@
 #include "host_sim/run/runner.hpp"
 
 #include "host_sim/base/abandon.hpp"
-#include "host_sim/base/deadline.hpp"
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
@@ -75,10 +73,9 @@ void warn_of_events(const MotionArguments& arguments, std::span<const OperatorEv
 }
 
 void print(const Summary& summary, SummaryKind kind) {
-    if (kind == SummaryKind::none) {
-        return;
+    if (kind != SummaryKind::none) {
+        print_whole(kind == SummaryKind::json ? to_json(summary) : to_text(summary), "the summary");
     }
-    print_whole(kind == SummaryKind::json ? to_json(summary) : to_text(summary), "the summary");
 }
 
 /// Where the machine stands. A program in G-code that nobody told it begins there.
@@ -96,9 +93,7 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
             }
         }
     }
-    if (const std::string note = start.note(); !note.empty() && !arguments.motion.quiet) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
+    tell_note(arguments.motion.quiet ? "" : start.note());
     return start;
 }
 
@@ -119,13 +114,6 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
     out.start = find_start(arguments, of, *out.target, input, begins, limits);
     out.outputs.reset(input.gcode() != nullptr ? make_outputs(of.machine, arguments.target).release() : nullptr);
     return out;
-}
-
-/// For those who named no machine and have one.
-void note_machine(const RunArguments& arguments, const MachineDescription& machine) {
-    if (const std::string note = note_of(machine_of(arguments), machine); !note.empty() && !arguments.motion.quiet) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
 }
 
 /// For those who think that the machine of their file moves.
@@ -210,7 +198,7 @@ int run(const RunArguments& arguments) {
     const auto begun = std::chrono::steady_clock::now();
     RunMachine of = arguments.described ? RunMachine(*arguments.described, arguments.path.format->is_gcode())
                                         : RunMachine(machine_of(arguments), *arguments.path.format);
-    note_machine(arguments, of.machine);
+    tell_note(arguments.motion.quiet ? "" : note_of(machine_of(arguments), of.machine));
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());

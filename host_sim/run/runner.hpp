@@ -63,4 +63,9 @@ struct RunArguments {
 /// Writes the curve through the points as Bezier segments; nothing moves. Returns 0. Throws like run().
 [[nodiscard]] int draw(const RunArguments& arguments);
 
+/// A program in G-code without a machine: everything that is wrong with it, what it does, and how long it takes.
+/// Prints the report on standard output: as text, or as JSON if the summary is asked for as that. Returns 0, or 1 if
+/// the program has problems. Throws like run().
+[[nodiscard]] int check_program(const RunArguments& arguments);
+
 } // namespace splinefeed::host

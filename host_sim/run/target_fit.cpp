@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -19,18 +18,16 @@ PlanFigures fit_to_target(MachineDescription& machine, ScalarKind scalar, const 
     const std::string lowered = target.fit(machine);
     PlanFigures figures = plan_figures(scalar, machine);
     for (const std::string& note : {lowered, target.note()}) {
-        if (!note.empty() && !quiet) {
-            tell("splinefeed: note: {}\n", printable(note));
-        }
+        tell_note(quiet ? "" : note);
     }
     if (figures.segment_ticks >= target.least_segment_us() * ticks_per_us) {
         return figures;
     }
     const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
     if (!target.resamples() || period_us > longest_us) {
-        throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
-                                     "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
-                                     target.least_segment_us() * 1e-3, figures.segment_ticks * 1e-3 / ticks_per_us));
+        throw UsageError("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
+                         "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
+                         target.least_segment_us() * 1e-3, figures.segment_ticks * 1e-3 / ticks_per_us);
     }
     machine.settings.sample_period_us = std::max(period_us, asked_us);
     machine.settings.segments_per_sample = 1;

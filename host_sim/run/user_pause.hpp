@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// UserPause: asks the user to go on, by a line on the terminal or by a signal.
+// UserPause: asks the user to go on, by a line on the terminal or by a signal. UserSuspend: stops the process at the
+// user's request (Ctrl-Z), once the machine stands.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace splinefeed::host {
@@ -22,6 +26,27 @@ public:
 private:
     int terminal_;
     bool answered_ = false;
+};
+
+/// A process that is stopped supervises nothing, so the machine is held first. For the planner's thread.
+class UserSuspend {
+public:
+    /// Then the process is not stopped any more. A hold takes the way to standstill and what drives have in store.
+    static constexpr std::chrono::seconds most{15};
+
+    void ask() noexcept;
+    void forget() noexcept { since_.reset(); }
+    /// Called often. Stops the process if it was asked to and the machine stands; returns when it continues.
+    /// @param moves  the plan does not stand yet
+    /// @param submitted, executed  segments
+    /// @param spindle_stands  for what the user is told
+    void follow(bool moves, std::uint64_t submitted, std::uint64_t executed, bool spindle_stands);
+    /// The process continues: says how the motion does.
+    static void tell_held();
+
+private:
+    std::optional<std::chrono::steady_clock::time_point> since_;
+    std::optional<std::uint64_t> stands_after_; // so many segments
 };
 
 } // namespace splinefeed::host

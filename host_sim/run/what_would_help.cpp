@@ -155,8 +155,7 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
         const double seconds = moving_s * share + arguments.standing_s;
         out.limits.push_back({candidate.name, setting, seconds, 1.0 - seconds / summary.cycle_time_s});
     }
-    std::stable_sort(out.limits.begin(), out.limits.end(),
-                     [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    std::ranges::stable_sort(out.limits, [](const auto& a, const auto& b) { return a.gain > b.gain; });
     return out;
 }
 

@@ -71,9 +71,8 @@ void GrblListing::add(const GrblSetting& setting) {
     const auto [place, is_new] = settings_.emplace(setting.number, setting);
     const GrblSetting& known = place->second;
     if (!is_new && known.value != setting.value) {
-        throw InputError(file_, setting.line,
-                         fmt::format("${} is {}, and {} in line {}; leave in what is true", setting.number,
-                                     in_quotes(setting.value), in_quotes(known.value), known.line));
+        throw InputError(file_, setting.line, "${} is {}, and {} in line {}; leave in what is true", setting.number,
+                         in_quotes(setting.value), in_quotes(known.value), known.line);
     }
 }
 
@@ -105,7 +104,7 @@ std::int32_t GrblListing::whole(const GrblSetting& setting) const {
 }
 
 void GrblListing::fail(const GrblSetting& setting, std::string_view why) const {
-    throw InputError(file_, setting.line, fmt::format("${} is {}: {}", setting.number, in_quotes(setting.value), why));
+    throw InputError(file_, setting.line, "${} is {}: {}", setting.number, in_quotes(setting.value), why);
 }
 
 } // namespace splinefeed::host

@@ -92,8 +92,7 @@ private:
     [[nodiscard]] const GrblSetting* find(std::int32_t number) const { return listing_.find(number); }
 
     [[nodiscard]] bool has_axis(std::size_t column) const {
-        return std::any_of(std::begin(of_axes), std::end(of_axes),
-                           [&](std::int32_t first) { return find(first, column) != nullptr; });
+        return std::ranges::any_of(of_axes, [&](std::int32_t first) { return find(first, column) != nullptr; });
     }
 
     [[nodiscard]] static std::string row(std::string_view key, std::string_view value, const GrblSetting& setting) {
@@ -103,8 +102,8 @@ private:
 
     [[nodiscard]] std::string name() const {
         std::string stem = file_ == "-" ? "machine" : printable(std::filesystem::path(file_).stem().string());
-        std::replace_if(
-            stem.begin(), stem.end(), [](char c) { return c == '"' || c == '\\'; }, '_');
+        std::ranges::replace_if(
+            stem, [](char c) { return c == '"' || c == '\\'; }, '_');
         return stem;
     }
 
@@ -140,13 +139,12 @@ private:
     /// What the key has that machine files name as `$$` does. @pre  it is one of axis_numbers
     [[nodiscard]] double axis_number(std::int32_t first, std::size_t column) const {
         const std::string_view key = SettingList::key_of(first);
-        const auto* const row = std::find_if(std::begin(axis_numbers), std::end(axis_numbers),
-                                             [key](const auto& number) { return number.key == key; });
+        const auto* const row =
+            std::ranges::find_if(axis_numbers, [key](const auto& number) { return number.key == key; });
         const GrblSetting* const setting = find(first, column);
         if (setting == nullptr) {
-            throw InputError(file_, 0,
-                             fmt::format("there is no ${}, {} of axis {}; save all that the controller answers to $$",
-                                         first + static_cast<std::int32_t>(column), key, columns[column]));
+            throw InputError(file_, 0, "there is no ${}, {} of axis {}; save all that the controller answers to $$",
+                             first + static_cast<std::int32_t>(column), key, columns[column]);
         }
         return listing_.value(*setting, key, {row->low, row->high, row->unit}, first == velocity ? per_minute : 1.0);
     }
@@ -191,8 +189,7 @@ private:
         const auto of_axis = [number](std::int32_t first) {
             return number >= first && number < first + static_cast<std::int32_t>(columns.size());
         };
-        return std::find(std::begin(taken_over), std::end(taken_over), number) != std::end(taken_over) ||
-               std::any_of(std::begin(of_axes), std::end(of_axes), of_axis);
+        return std::ranges::find(taken_over, number) != std::end(taken_over) || std::ranges::any_of(of_axes, of_axis);
     }
 
     /// What a machine file does not say.
@@ -213,8 +210,8 @@ private:
 
     [[nodiscard]] std::string meaning(const GrblSetting& setting) const {
         const std::string_view key = SettingList::key_of(setting.number);
-        const auto* const known = std::find_if(std::begin(not_taken_over), std::end(not_taken_over),
-                                               [&](const LeftOut& row) { return row.number == setting.number; });
+        const auto* const known =
+            std::ranges::find_if(not_taken_over, [&](const LeftOut& row) { return row.number == setting.number; });
         if (known == std::end(not_taken_over)) {
             return key.empty() ? "not known here" : std::string(key);
         }

@@ -69,23 +69,259 @@ public:
         }
     }
 
-    std::string listen(const std::string& address) override;
-    std::string open_terminal(const std::string& link) override;
-    void watch_input(std::function<void(std::string_view)> line) override;
-    void wait(std::chrono::microseconds longest) override;
-    void send(std::string_view text) override;
+    std::string listen(const std::string& address) override {
+        const std::size_t colon = address.rfind(':');
+        const auto port = read_whole<unsigned>(colon == std::string::npos ? "" : address.substr(colon + 1), 0, 65535);
+        boost::system::error_code error;
+        const auto host = asio::ip::make_address_v4(address.substr(0, colon), error);
+        if (!port || error) {
+            throw UsageError("--tcp {}: write ADDRESS:PORT, for example 127.0.0.1:2300", in_quotes(address));
+        }
+        if (!host.is_loopback()) {
+            throw UsageError("--tcp {}: others than this computer could move the machine there; listen on "
+                             "127.0.0.1, and come from elsewhere by ssh -L",
+                             in_quotes(address));
+        }
+        const tcp::endpoint place(host, static_cast<unsigned short>(*port));
+        acceptor_.open(place.protocol());
+        acceptor_.set_option(tcp::acceptor::reuse_address(true));
+        acceptor_.bind(place, error);
+        if (!error) {
+            acceptor_.listen(8, error);
+        }
+        if (error) {
+            throw UsageError("--tcp {}: {}; take another port", in_quotes(address), error.message());
+        }
+        accept();
+        const tcp::endpoint bound = acceptor_.local_endpoint();
+        return fmt::format("{}:{}", bound.address().to_string(), bound.port());
+    }
+
+    std::string open_terminal(const std::string& link) override {
+        const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) {
+            throw UsageError("--pty: there is no pseudo terminal: " + reason());
+        }
+        std::string name = ::ptsname(master);
+        // Cooked, it would echo what we say back to us, as lines.
+        const int slave = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        termios mode{};
+        if (slave < 0 || ::tcgetattr(slave, &mode) != 0) {
+            throw UsageError("--pty: " + reason());
+        }
+        ::cfmakeraw(&mode);
+        if (::tcsetattr(slave, TCSANOW, &mode) != 0 || ::fchmod(slave, S_IRUSR | S_IWUSR) != 0) {
+            throw UsageError("--pty: " + reason());
+        }
+        ::close(slave); // else nobody would see that a sender has gone
+        std::error_code ignored;
+        if (std::filesystem::read_symlink(link, ignored).parent_path() == "/dev/pts") {
+            ::unlink(link.c_str()); // of a server that was killed
+        }
+        if (::symlink(name.c_str(), link.c_str()) != 0) {
+            throw UsageError("--pty {}: {}; name a file that is not there yet", in_quotes(link), reason());
+        }
+        link_ = link;
+        terminal_name_ = name;
+        terminal_ = std::make_shared<Sender>(context_, master, link);
+        terminal_->is_terminal = true;
+        terminal_->present = false;
+        look_at_terminal();
+        return name;
+    }
+
+    void watch_input(std::function<void(std::string_view)> line) override {
+        on_line_ = std::move(line);
+        input_.emplace(context_, ::dup(STDIN_FILENO));
+        read_input();
+    }
+
+    void wait(std::chrono::microseconds longest) override {
+        context_.restart();
+        context_.run_one_for(longest);
+        for (int more = 0; more < most_at_once && context_.poll_one() > 0; ++more) { // who floods does not keep us here
+        }
+        flush();
+    }
+
+    void send(std::string_view text) override {
+        if (operator_ == nullptr) {
+            return;
+        }
+        std::string& unsent = operator_->unsent;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = text.find('\n', at);
+            const std::size_t next = end == std::string_view::npos ? text.size() : end + 1;
+            const bool report = text[at] == '<';
+            if (!report || unsent.size() < most_with_reports) {
+                unsent += text.substr(at, next - at);
+            }
+            at = next;
+        }
+        flush();
+    }
+
     [[nodiscard]] bool has_sender() const noexcept override { return operator_ != nullptr; }
 
 private:
-    void accept();
-    void greet(const SenderPointer& sender);
-    void read(const SenderPointer& sender);
-    void take(const SenderPointer& sender);
-    void drop(const SenderPointer& sender);
-    void look_at_terminal();
-    void forget_unread() const;
-    void read_input();
-    void flush();
+    void accept() {
+        acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
+            boost::system::error_code ignored;
+            if (!error) {
+                const tcp::endpoint from = socket.remote_endpoint(ignored);
+                socket.set_option(tcp::no_delay(true), ignored);
+                greet(std::make_shared<Sender>(context_, socket.release(),
+                                               fmt::format("{}:{}", from.address().to_string(), from.port())));
+            }
+            accept();
+        });
+    }
+
+    // The machine is given to it, or it is told who has it.
+    void greet(const SenderPointer& sender) {
+        if (operator_ != nullptr && SteadyClock::now() - operator_->heard > longest_silence && events_.idle()) {
+            events_.noted(fmt::format("{} was silent, and {} takes the machine", operator_->name, sender->name));
+            const SenderPointer silent = operator_;
+            drop(silent);
+        }
+        if (operator_ != nullptr) {
+            boost::system::error_code ignored;
+            const std::string busy = fmt::format("[MSG:Busy: {} has the machine]\r\n", operator_->name);
+            sender->stream.write_some(asio::buffer(busy), ignored);
+            events_.noted(fmt::format("{} was sent away: {} has the machine", sender->name, operator_->name));
+            sender->refused = true;
+            if (sender->is_terminal) { // it stays, and is not heard
+                read(sender);
+            }
+            return;
+        }
+        operator_ = sender;
+        sender->guard = {};
+        sender->heard = SteadyClock::now();
+        events_.opened(sender->name);
+        read(sender);
+    }
+
+    void read(const SenderPointer& sender) {
+        sender->stream.async_wait(asio::posix::stream_descriptor::wait_read,
+                                  [this, sender](const boost::system::error_code& error) {
+                                      if (!error) {
+                                          take(sender);
+                                      }
+                                  });
+    }
+
+    void take(const SenderPointer& sender) {
+        std::array<char, 4096> bytes{};
+        boost::system::error_code error;
+        const std::size_t size = sender->stream.read_some(asio::buffer(bytes), error);
+        if (error == asio::error::would_block || error == asio::error::interrupted) {
+            read(sender);
+            return;
+        }
+        if (error || size == 0) {
+            drop(sender);
+            return;
+        }
+        sender->heard = SteadyClock::now();
+        std::string through;
+        if (!sender->refused && !sender->guard.take({bytes.data(), size}, through)) {
+            events_.noted(fmt::format("{} speaks HTTP or TLS: nothing of it was executed", sender->name));
+            drop(sender);
+            return;
+        }
+        if (!through.empty() && operator_ == sender) {
+            events_.received(through);
+        }
+        read(sender);
+    }
+
+    void drop(const SenderPointer& sender) {
+        const bool had = operator_ == sender;
+        if (had) {
+            operator_ = nullptr;
+        }
+        if (sender->is_terminal) {
+            sender->present = sender->refused = false;
+            sender->unsent.clear();
+            boost::system::error_code ignored;
+            sender->stream.cancel(ignored);
+            forget_unread();
+        } else {
+            boost::system::error_code ignored;
+            sender->stream.close(ignored);
+        }
+        if (had) {
+            events_.closed();
+        }
+    }
+
+    // Nobody has it open: the kernel says that it is hung up.
+    void look_at_terminal() {
+        pollfd look{terminal_->stream.native_handle(), POLLIN, 0};
+        ::poll(&look, 1, 0);
+        const bool open = (look.revents & POLLHUP) == 0;
+        if (open && !terminal_->present) {
+            terminal_->present = true;
+            greet(terminal_);
+        } else if (!open && terminal_->present) {
+            drop(terminal_);
+        } else if (!open && (look.revents & POLLIN) != 0) { // somebody came and went between two looks
+            forget_unread();
+        }
+        timer_.expires_after(terminal_look);
+        timer_.async_wait([this](const boost::system::error_code& error) {
+            if (!error) {
+                look_at_terminal();
+            }
+        });
+    }
+
+    // What the last sender has not read or we have not is nothing for the next one.
+    void forget_unread() const {
+        std::array<char, 4096> bytes{};
+        boost::system::error_code error;
+        for (int part = 0; part < most_at_once && !error; ++part) {
+            terminal_->stream.read_some(asio::buffer(bytes), error);
+        }
+        const int slave = ::open(terminal_name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (slave >= 0) {
+            ::tcflush(slave, TCIOFLUSH);
+            ::close(slave);
+        }
+    }
+
+    void read_input() {
+        input_->async_wait(asio::posix::stream_descriptor::wait_read, [this](const boost::system::error_code& error) {
+            std::array<char, 1024> bytes{};
+            const ssize_t size = error ? -1 : ::read(input_->native_handle(), bytes.data(), bytes.size());
+            if (size <= 0) {
+                return; // its end: the senders stay
+            }
+            input_text_.append(bytes.data(), static_cast<std::size_t>(size));
+            for (std::size_t end = input_text_.find('\n'); end != std::string::npos; end = input_text_.find('\n')) {
+                const std::string one = input_text_.substr(0, end);
+                input_text_.erase(0, end + 1);
+                on_line_(one);
+            }
+            read_input();
+        });
+    }
+
+    void flush() {
+        if (operator_ == nullptr || operator_->unsent.empty()) {
+            return;
+        }
+        const SenderPointer sender = operator_;
+        boost::system::error_code error;
+        const std::size_t sent = sender->stream.write_some(asio::buffer(sender->unsent), error);
+        sender->unsent.erase(0, sent);
+        const bool gone = error && error != asio::error::would_block;
+        if (gone || sender->unsent.size() > most_unread) {
+            events_.noted(fmt::format("{} {}", sender->name, gone ? "has gone" : "does not read, and was sent away"));
+            drop(sender);
+        }
+    }
 
     Events events_;
     asio::io_context context_;
@@ -99,257 +335,6 @@ private:
     std::string link_;
     std::string terminal_name_;
 };
-
-std::string AsioDoor::listen(const std::string& address) {
-    const std::size_t colon = address.rfind(':');
-    const auto port = read_whole<unsigned>(colon == std::string::npos ? "" : address.substr(colon + 1), 0, 65535);
-    boost::system::error_code error;
-    const auto host = asio::ip::make_address_v4(address.substr(0, colon), error);
-    if (!port || error) {
-        throw UsageError(fmt::format("--tcp {}: write ADDRESS:PORT, for example 127.0.0.1:2300", in_quotes(address)));
-    }
-    if (!host.is_loopback()) {
-        throw UsageError(fmt::format("--tcp {}: others than this computer could move the machine there; listen on "
-                                     "127.0.0.1, and come from elsewhere by ssh -L",
-                                     in_quotes(address)));
-    }
-    const tcp::endpoint place(host, static_cast<unsigned short>(*port));
-    acceptor_.open(place.protocol());
-    acceptor_.set_option(tcp::acceptor::reuse_address(true));
-    acceptor_.bind(place, error);
-    if (!error) {
-        acceptor_.listen(8, error);
-    }
-    if (error) {
-        throw UsageError(fmt::format("--tcp {}: {}; take another port", in_quotes(address), error.message()));
-    }
-    accept();
-    const tcp::endpoint bound = acceptor_.local_endpoint();
-    return fmt::format("{}:{}", bound.address().to_string(), bound.port());
-}
-
-void AsioDoor::accept() {
-    acceptor_.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
-        boost::system::error_code ignored;
-        if (!error) {
-            const tcp::endpoint from = socket.remote_endpoint(ignored);
-            socket.set_option(tcp::no_delay(true), ignored);
-            greet(std::make_shared<Sender>(context_, socket.release(),
-                                           fmt::format("{}:{}", from.address().to_string(), from.port())));
-        }
-        accept();
-    });
-}
-
-// The machine is given to it, or it is told who has it.
-void AsioDoor::greet(const SenderPointer& sender) {
-    if (operator_ != nullptr && SteadyClock::now() - operator_->heard > longest_silence && events_.idle()) {
-        events_.noted(fmt::format("{} was silent, and {} takes the machine", operator_->name, sender->name));
-        const SenderPointer silent = operator_;
-        drop(silent);
-    }
-    if (operator_ != nullptr) {
-        boost::system::error_code ignored;
-        const std::string busy = fmt::format("[MSG:Busy: {} has the machine]\r\n", operator_->name);
-        sender->stream.write_some(asio::buffer(busy), ignored);
-        events_.noted(fmt::format("{} was sent away: {} has the machine", sender->name, operator_->name));
-        sender->refused = true;
-        if (sender->is_terminal) { // it stays, and is not heard
-            read(sender);
-        }
-        return;
-    }
-    operator_ = sender;
-    sender->guard = {};
-    sender->heard = SteadyClock::now();
-    events_.opened(sender->name);
-    read(sender);
-}
-
-void AsioDoor::read(const SenderPointer& sender) {
-    sender->stream.async_wait(asio::posix::stream_descriptor::wait_read,
-                              [this, sender](const boost::system::error_code& error) {
-                                  if (!error) {
-                                      take(sender);
-                                  }
-                              });
-}
-
-void AsioDoor::take(const SenderPointer& sender) {
-    std::array<char, 4096> bytes{};
-    boost::system::error_code error;
-    const std::size_t size = sender->stream.read_some(asio::buffer(bytes), error);
-    if (error == asio::error::would_block || error == asio::error::interrupted) {
-        read(sender);
-        return;
-    }
-    if (error || size == 0) {
-        drop(sender);
-        return;
-    }
-    sender->heard = SteadyClock::now();
-    std::string through;
-    if (!sender->refused && !sender->guard.take({bytes.data(), size}, through)) {
-        events_.noted(fmt::format("{} speaks HTTP or TLS: nothing of it was executed", sender->name));
-        drop(sender);
-        return;
-    }
-    if (!through.empty() && operator_ == sender) {
-        events_.received(through);
-    }
-    read(sender);
-}
-
-void AsioDoor::drop(const SenderPointer& sender) {
-    const bool had = operator_ == sender;
-    if (had) {
-        operator_ = nullptr;
-    }
-    if (sender->is_terminal) {
-        sender->present = sender->refused = false;
-        sender->unsent.clear();
-        boost::system::error_code ignored;
-        sender->stream.cancel(ignored);
-        forget_unread();
-    } else {
-        boost::system::error_code ignored;
-        sender->stream.close(ignored);
-    }
-    if (had) {
-        events_.closed();
-    }
-}
-
-std::string AsioDoor::open_terminal(const std::string& link) {
-    const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) {
-        throw UsageError("--pty: there is no pseudo terminal: " + reason());
-    }
-    std::string name = ::ptsname(master);
-    // Cooked, it would echo what we say back to us, as lines.
-    const int slave = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    termios mode{};
-    if (slave < 0 || ::tcgetattr(slave, &mode) != 0) {
-        throw UsageError("--pty: " + reason());
-    }
-    ::cfmakeraw(&mode);
-    if (::tcsetattr(slave, TCSANOW, &mode) != 0 || ::fchmod(slave, S_IRUSR | S_IWUSR) != 0) {
-        throw UsageError("--pty: " + reason());
-    }
-    ::close(slave); // else nobody would see that a sender has gone
-    std::error_code ignored;
-    if (std::filesystem::read_symlink(link, ignored).parent_path() == "/dev/pts") {
-        ::unlink(link.c_str()); // of a server that was killed
-    }
-    if (::symlink(name.c_str(), link.c_str()) != 0) {
-        throw UsageError(fmt::format("--pty {}: {}; name a file that is not there yet", in_quotes(link), reason()));
-    }
-    link_ = link;
-    terminal_name_ = name;
-    terminal_ = std::make_shared<Sender>(context_, master, link);
-    terminal_->is_terminal = true;
-    terminal_->present = false;
-    look_at_terminal();
-    return name;
-}
-
-// What the last sender has not read or we have not is nothing for the next one.
-void AsioDoor::forget_unread() const {
-    std::array<char, 4096> bytes{};
-    boost::system::error_code error;
-    for (int part = 0; part < most_at_once && !error; ++part) {
-        terminal_->stream.read_some(asio::buffer(bytes), error);
-    }
-    const int slave = ::open(terminal_name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    if (slave >= 0) {
-        ::tcflush(slave, TCIOFLUSH);
-        ::close(slave);
-    }
-}
-
-// Nobody has it open: the kernel says that it is hung up.
-void AsioDoor::look_at_terminal() {
-    pollfd look{terminal_->stream.native_handle(), POLLIN, 0};
-    ::poll(&look, 1, 0);
-    const bool open = (look.revents & POLLHUP) == 0;
-    if (open && !terminal_->present) {
-        terminal_->present = true;
-        greet(terminal_);
-    } else if (!open && terminal_->present) {
-        drop(terminal_);
-    } else if (!open && (look.revents & POLLIN) != 0) { // somebody came and went between two looks
-        forget_unread();
-    }
-    timer_.expires_after(terminal_look);
-    timer_.async_wait([this](const boost::system::error_code& error) {
-        if (!error) {
-            look_at_terminal();
-        }
-    });
-}
-
-void AsioDoor::watch_input(std::function<void(std::string_view)> line) {
-    on_line_ = std::move(line);
-    input_.emplace(context_, ::dup(STDIN_FILENO));
-    read_input();
-}
-
-void AsioDoor::read_input() {
-    input_->async_wait(asio::posix::stream_descriptor::wait_read, [this](const boost::system::error_code& error) {
-        std::array<char, 1024> bytes{};
-        const ssize_t size = error ? -1 : ::read(input_->native_handle(), bytes.data(), bytes.size());
-        if (size <= 0) {
-            return; // its end: the senders stay
-        }
-        input_text_.append(bytes.data(), static_cast<std::size_t>(size));
-        for (std::size_t end = input_text_.find('\n'); end != std::string::npos; end = input_text_.find('\n')) {
-            const std::string one = input_text_.substr(0, end);
-            input_text_.erase(0, end + 1);
-            on_line_(one);
-        }
-        read_input();
-    });
-}
-
-void AsioDoor::wait(std::chrono::microseconds longest) {
-    context_.restart();
-    context_.run_one_for(longest);
-    for (int more = 0; more < most_at_once && context_.poll_one() > 0; ++more) { // who floods does not keep us here
-    }
-    flush();
-}
-
-void AsioDoor::send(std::string_view text) {
-    if (operator_ == nullptr) {
-        return;
-    }
-    std::string& unsent = operator_->unsent;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = text.find('\n', at);
-        const std::size_t next = end == std::string_view::npos ? text.size() : end + 1;
-        const bool report = text[at] == '<';
-        if (!report || unsent.size() < most_with_reports) {
-            unsent += text.substr(at, next - at);
-        }
-        at = next;
-    }
-    flush();
-}
-
-void AsioDoor::flush() {
-    if (operator_ == nullptr || operator_->unsent.empty()) {
-        return;
-    }
-    const SenderPointer sender = operator_;
-    boost::system::error_code error;
-    const std::size_t sent = sender->stream.write_some(asio::buffer(sender->unsent), error);
-    sender->unsent.erase(0, sent);
-    const bool gone = error && error != asio::error::would_block;
-    if (gone || sender->unsent.size() > most_unread) {
-        events_.noted(fmt::format("{} {}", sender->name, gone ? "has gone" : "does not read, and was sent away"));
-        drop(sender);
-    }
-}
 
 } // namespace
 

@@ -3,7 +3,6 @@
 
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/ports/target_table.hpp"
 #include "host_sim/run/output_table.hpp"
@@ -19,12 +18,6 @@
 namespace splinefeed::host {
 
 namespace {
-
-void tell_note(const std::string& note) {
-    if (!note.empty()) {
-        tell("splinefeed: note: {}\n", printable(note));
-    }
-}
 
 // Where an axis stands is said by the state file; without one all stand at 0, or at the end of travel beside it.
 ServedTarget::Settings places_of(const MachineState& state, const MachineDescription& machine) {
@@ -90,8 +83,8 @@ int run_serve(const ServeArguments& arguments) {
     const ControllerSettings settings = serve_settings(machine, switches);
     ServedMotion motion(machine.machine, settings);
     if (tool == nullptr) {
-        tool = std::make_unique<SimulatedTool>(machine.machine, motion.segments_per_sample(), told.told_mm,
-                                               begins.unknown_why.empty());
+        tool = make_simulated_tool(machine.machine, motion.segments_per_sample(), told.told_mm,
+                                   begins.unknown_why.empty());
     }
     std::optional<StateKeeper> state;
     if (arguments.state) {

@@ -6,8 +6,6 @@
 
 #include "splinefeed/s0_program/text_cursor.hpp"
 
-#include <fmt/format.h>
-
 namespace splinefeed::host {
 
 namespace {
@@ -38,8 +36,8 @@ ControllerSettings serve_settings(const RunMachine& machine_of_run, const Switch
     for (const unsigned k : indices(machine.settings.axes)) {
         const char letter = upper_case(machine.axis_name[k].front());
         if (std::string_view("XYZABC").find(letter) == std::string_view::npos) {
-            throw UsageError(fmt::format("axis {}: senders know the axes x, y, z, a, b and c; name it like one of them",
-                                         machine.axis_name[k]));
+            throw UsageError("axis {}: senders know the axes x, y, z, a, b and c; name it like one of them",
+                             machine.axis_name[k]);
         }
         out.program.letters[k] = letter;
         out.program.rotary_axes |= machine.settings.axis[k].rotary ? 1U << k : 0U;

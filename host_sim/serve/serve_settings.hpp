@@ -2,7 +2,7 @@
 // serve_settings: a machine file as a controller is told of it.
 #pragma once
 
-#include "host_sim/ports/switch_facts.hpp"
+#include "host_sim/ports/run_target.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include "splinefeed/controller/controller_settings.hpp"

@@ -30,8 +30,8 @@ PointList read_grid(const json& input, std::size_t& rows) {
         columns = columns == 0 ? points.points.size() : columns;
         all.axes = all.axes == 0 ? points.axes : all.axes;
         if (points.points.size() != columns || points.axes != all.axes) {
-            throw DescriptionError(fmt::format("{} has {} points of {} numbers; it must have {} of {}, like the first",
-                                               name, points.points.size(), points.axes, columns, all.axes));
+            throw DescriptionError("{} has {} points of {} numbers; it must have {} of {}, like the first", name,
+                                   points.points.size(), points.axes, columns, all.axes);
         }
         all.points.insert(all.points.end(), points.points.begin(), points.points.end());
     }
@@ -144,7 +144,7 @@ int degree_in(const json& input, const char* key, std::size_t points, std::strin
     const int highest = static_cast<int>(std::min<std::size_t>(points - 1, max_degree));
     const int degree = integer_in(input, key, 1, max_degree, std::min(3, highest));
     if (degree > highest) {
-        throw DescriptionError(fmt::format("\"{}\" is {}; {} {} allow {} at most", key, degree, points, what, highest));
+        throw DescriptionError("\"{}\" is {}; {} {} allow {} at most", key, degree, points, what, highest);
     }
     return degree;
 }
@@ -176,8 +176,7 @@ DescribedSurface describe_surface(std::string_view method, const json& input, Sc
         return describe_skin(input, scalar);
     }
     constexpr std::array<std::string_view, 2> methods{"bspline_surface", "bspline_skin"};
-    throw DescriptionError(
-        fmt::format("\"method\" {} is no surface; it must be one of {}", in_quotes(method), listed(methods)));
+    throw DescriptionError("\"method\" {} is no surface; it must be one of {}", in_quotes(method), listed(methods));
 }
 
 ordered_json surface_report(const DescribedSurface& surface) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -91,10 +90,9 @@ void require_fit(const ToolSurface& surface, double along, double across) {
     const auto hollow = surface.hollow(along, across);
     if (hollow && *hollow * r > 1.0 + 1e-9) {
         const Vector p = surface.jet(along, across).position;
-        throw DescriptionError(
-            fmt::format("a ball of radius {:g} mm does not fit into the hollow at x={:.3f} y={:.3f} z={:.3f}, "
-                        "whose radius is {:.4f} mm; take a smaller --ball-radius",
-                        r, p[0], p[1], p[2], 1.0 / *hollow));
+        throw DescriptionError("a ball of radius {:g} mm does not fit into the hollow at x={:.3f} y={:.3f} z={:.3f}, "
+                               "whose radius is {:.4f} mm; take a smaller --ball-radius",
+                               r, p[0], p[1], p[2], 1.0 / *hollow);
     }
 }
 
@@ -117,8 +115,8 @@ std::size_t require_fit(const ToolSurface& surface, const CellInterval& stretch)
 
 void require_count(double count) {
     if (!(count <= most_waypoints)) { // not a number, too
-        throw DescriptionError(fmt::format(
-            "the path needs more than {:.0f} waypoints; take a larger --step, or fewer lines", most_waypoints));
+        throw DescriptionError("the path needs more than {:.0f} waypoints; take a larger --step, or fewer lines",
+                               most_waypoints);
     }
 }
 
@@ -164,8 +162,8 @@ std::vector<double> line_parameters(const ToolSurface& surface) {
         }
         lines.push_back(from + step);
         if (lines.size() > most_raster_lines) {
-            throw DescriptionError(fmt::format("ridges of {:g} mm need more than {} lines; take a larger --scallop",
-                                               highest, most_raster_lines));
+            throw DescriptionError("ridges of {:g} mm need more than {} lines; take a larger --scallop", highest,
+                                   most_raster_lines);
         }
     }
     return lines;

@@ -72,7 +72,7 @@ std::vector<PathPiece> exact(const ToolSurface& surface, const CellInterval& str
     }
     if (stretch.from > stretch.to) {
         std::reverse(out.begin(), out.end());
-        std::transform(out.begin(), out.end(), out.begin(), reversed);
+        std::ranges::transform(out, out.begin(), reversed);
     }
     return out;
 }

@@ -52,8 +52,8 @@ std::vector<PointList> read_sections(const json& input, std::size_t fewest) {
         const std::string name = fmt::format("\"sections\", section {}", sections.size() + 1);
         sections.push_back(points_of(section, name, fewest));
         if (sections.back().axes != sections.front().axes) {
-            throw DescriptionError(fmt::format("{} has points of {} numbers; they must have {}, like the first section",
-                                               name, sections.back().axes, sections.front().axes));
+            throw DescriptionError("{} has points of {} numbers; they must have {}, like the first section", name,
+                                   sections.back().axes, sections.front().axes);
         }
     }
     return sections;
@@ -70,7 +70,7 @@ std::vector<S> merge_knots(std::vector<Section<S>>& sections, std::size_t degree
     for (Section<S>& section : sections) {
         all.insert(all.end(), inner(section).begin(), inner(section).end());
     }
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     const S tolerance = literal<S>(same_knot) * domain;
     std::vector<S> merged(degree + 1, S{});
     for (std::size_t from = 0; from < all.size();) {
@@ -108,8 +108,8 @@ std::vector<Section<S>> with_parameters(const Skin& skin, const Unit<S>& unit, S
         const Status status = spline_parameters<S>(section.points, skin.axes, Parameterization::chordal, false, domain,
                                                    section.parameters);
         if (status.error() == Error::coincident_points) {
-            throw DescriptionError(
-                fmt::format("\"sections\", section {}: two successive points are the same; leave one out", s + 1));
+            throw DescriptionError("\"sections\", section {}: two successive points are the same; leave one out",
+                                   s + 1);
         }
         require(status);
         require(open_knots<S>(KnotRule::average, section.parameters, skin.degree_u, false, section.knots));

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -48,8 +47,7 @@ struct Spine {
         Frame frame;
         frame.origin = jet.position;
         if (!(dot(jet.first, jet.first) > 0.0)) {
-            throw DescriptionError(
-                fmt::format("\"spine\" has no direction at {:.6g} of its length; move its points", t));
+            throw DescriptionError("\"spine\" has no direction at {:.6g} of its length; move its points", t);
         }
         frame.tangent = unit(jet.first);
         return frame;
@@ -59,7 +57,7 @@ struct Spine {
 Spine read_spine(const json& description) {
     const PointList list = points_in(description, "points", 2);
     if (list.axes != 3) {
-        throw DescriptionError(fmt::format("\"spine\" has points of {} numbers; they must have 3", list.axes));
+        throw DescriptionError("\"spine\" has points of {} numbers; they must have 3", list.axes);
     }
     Spine spine;
     const std::vector<Point<double>> points = Unit<double>(list.largest(), 1.0).in(list);
@@ -89,14 +87,14 @@ std::vector<double> read_stations(const json& description, std::size_t count) {
     }
     if (given != description.end() && !given->is_null()) {
         if (!given->is_array() || given->size() != count) {
-            throw DescriptionError(fmt::format("\"stations\" must be an array of {} numbers, one a section", count));
+            throw DescriptionError("\"stations\" must be an array of {} numbers, one a section", count);
         }
         stations = numbers_in(description, "stations", count, 0.0);
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (stations[i] < 0.0 || stations[i] > 1.0 || (i > 0 && !(stations[i] > stations[i - 1]))) {
-            throw DescriptionError(fmt::format("\"stations\", number {} is {:.6g}; they must rise from 0 to 1 at most",
-                                               i + 1, stations[i]));
+            throw DescriptionError("\"stations\", number {} is {:.6g}; they must rise from 0 to 1 at most", i + 1,
+                                   stations[i]);
         }
     }
     return stations;

@@ -6,7 +6,6 @@
 #include "host_sim/base/option_number.hpp"
 
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -15,7 +14,7 @@ namespace {
 // The index of the name.
 std::size_t choose(std::string_view option, std::string_view text, std::array<std::string_view, 2> names) {
     if (text != names[0] && text != names[1]) {
-        throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(text), listed(names)));
+        throw UsageError("{} {}: it must be one of {}", option, in_quotes(text), listed(names));
     }
     return text == names[0] ? 0 : 1;
 }
@@ -30,7 +29,7 @@ std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments) {
               std::pair{&arguments.pattern, "--pattern"}, std::pair{&arguments.lift, "--lift"},
               std::pair{&arguments.step, "--step"}}) {
             if (*value) {
-                throw UsageError(fmt::format("{} is for a tool path; add --along u or --along v", name));
+                throw UsageError("{} is for a tool path; add --along u or --along v", name);
             }
         }
         return std::nullopt;

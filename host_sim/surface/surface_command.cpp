@@ -8,7 +8,6 @@
 #include "splinefeed/number/position.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -37,7 +36,7 @@ DescribedSurface read_surface(const std::string& file, ScalarKind scalar) {
 void require_place(const Point<double>& point, std::string_view what = "the path goes to") {
     for (const double x : point) {
         if (!position_representable(x)) {
-            throw DescriptionError(fmt::format("{} {:.6g} mm; a position must lie within +-1048576 mm", what, x));
+            throw DescriptionError("{} {:.6g} mm; a position must lie within +-1048576 mm", what, x);
         }
     }
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -23,7 +22,7 @@ std::vector<double> creases(std::span<const double> knots, int degree) {
 ToolSurface::ToolSurface(const DescribedSurface& surface, const RasterOptions& options)
     : view_(surface.view()), options_(&options), along_u_(options.along == SurfaceDirection::u) {
     if (surface.axes != 3) {
-        throw DescriptionError(fmt::format("the points have {} numbers; a tool path needs x, y and z", surface.axes));
+        throw DescriptionError("the points have {} numbers; a tool path needs x, y and z", surface.axes);
     }
     if (options.ball_radius_mm > 0.0 &&
         !(creases(view_.knots_u, view_.degree_u).empty() && creases(view_.knots_v, view_.degree_v).empty())) {
@@ -63,9 +62,9 @@ Contact ToolSurface::contact(double along, double across) const {
     const SurfaceJet<double> here = evaluate(view_, u, v);
     const auto found = normal_of(view_, here, !(u < view_.last_u()), !(v < view_.last_v()));
     if (!found.has_value()) {
-        throw DescriptionError(fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: a ball has no place "
-                                           "there; leave out --ball-radius, or move the points apart",
-                                           u, v));
+        throw DescriptionError("the surface has no normal at u = {:.6g}, v = {:.6g}: a ball has no place "
+                               "there; leave out --ball-radius, or move the points apart",
+                               u, v);
     }
     return {here.position, along_u_ ? here.u : here.v, plus({}, side_, found->direction)};
 }
@@ -94,7 +93,7 @@ double ToolSurface::highest_mm() const noexcept {
     const auto lower = [](const Vector& a, const Vector& b) {
         return a[2] < b[2];
     };
-    const double top = (*std::max_element(view_.net.begin(), view_.net.end(), lower))[2];
+    const double top = (*std::ranges::max_element(view_.net, lower))[2];
     return options_->tip ? top : top + options_->ball_radius_mm;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/drive/axis_move.hpp"
+#include "host_sim/drive/axis_moves.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>

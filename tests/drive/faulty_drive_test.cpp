@@ -27,7 +27,7 @@ struct Bench {
         } else {
             ProfileDriveParameters parameters;
             parameters.axis.start_counts = 1000.0;
-            inner = make_drive(profile, parameters);
+            inner = std::make_unique<ProfileDrive>(profile, parameters);
         }
         drive = std::make_unique<FaultyDrive>(std::move(inner), profile);
         drive->advance(0);

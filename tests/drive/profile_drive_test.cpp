@@ -302,10 +302,3 @@ TEST_CASE("Profile drive: following error, watchdog, power cycle and swapped wor
     drive.model().swap_words();
     CHECK(drive.position() == position);
 }
-
-TEST_CASE("Profile drive: a profile that streams segments has another model") {
-    const std::string told = splinefeed_test::refusal_of<UsageError>(
-        [] { static_cast<void>(make_drive(find_profile("splinefeed-pvt"), {})); });
-    CHECK(told.find("splinefeed-pvt") != std::string::npos);
-    CHECK(make_drive(find_profile("oriental-az"), {})->axes() == 1);
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/gpio/gpio_switches.hpp"
+#include "host_sim/ports/gpio/line_outputs.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"
@@ -38,7 +38,7 @@ struct Bench {
 
     MachineDescription machine = parse_machine(machine_text, "m.toml");
     RecordedChips chips{machine.lines};
-    std::unique_ptr<GpioSwitches> switches = std::make_unique<GpioSwitches>(machine.lines, chips.all);
+    std::shared_ptr<RunSwitches> switches = line_outputs(machine, chips.all).switches;
 };
 
 constexpr std::uint64_t mist = 1;

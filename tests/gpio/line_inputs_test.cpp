@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/gpio/line_inputs.hpp"
+#include "host_sim/ports/gpio/line_outputs.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"
@@ -46,7 +46,8 @@ TEST_CASE("Inputs are lines with a level each, read when they are watched", "[in
     CHECK(machine.lines.chips[0].inputs[1].bias == hal::gpio::Bias::pull_up);
     RecordedChips chips{machine.lines};
     VirtualClock clock;
-    LineInputs inputs(machine.lines, chips.all, clock);
+    const OutputParts outputs = line_outputs(machine, chips.all, clock);
+    RunInputs& inputs = *outputs.inputs;
     CHECK_FALSE(inputs.take());
     CHECK_FALSE(inputs.watch(5));
     CHECK_FALSE(inputs.watch(7)); // of a module
@@ -68,7 +69,8 @@ TEST_CASE("Inputs are lines with a level each, read when they are watched", "[in
 TEST_CASE("An input that cannot be read is trouble that names it", "[inputs]") {
     const MachineDescription machine = parse_machine(machine_text, "m.toml");
     RecordedChips chips{machine.lines};
-    LineInputs inputs(machine.lines, chips.all);
+    const OutputParts outputs = line_outputs(machine, chips.all);
+    RunInputs& inputs = *outputs.inputs;
     REQUIRE(inputs.watch(4));
     chips.inputs[0]->now.reset();
     CHECK_FALSE(inputs.take());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/gpio/line_spindle.hpp"
+#include "host_sim/ports/gpio/line_outputs.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"
@@ -21,7 +21,7 @@ std::string machine_with(const std::string& keys) {
 struct Bench {
     explicit Bench(const std::string& keys)
         : machine(parse_machine(machine_with(keys), "m.toml")), chips(machine.lines),
-          spindle(*machine.spindle->lines, machine.lines, machine.spindle->at_speed_timeout_s, chips.all, clock) {}
+          outputs(line_outputs(machine, chips.all, clock)) {}
 
     void pass_ms(int ms) {
         for (int i = 0; i < ms; ++i) {
@@ -40,7 +40,8 @@ struct Bench {
     VirtualClock clock;
     MachineDescription machine;
     RecordedChips chips;
-    LineSpindle spindle;
+    OutputParts outputs;
+    RunSpindle& spindle = *outputs.spindle;
 };
 
 const std::string reverse_line = "reverse = { line = 'REV' }\n";

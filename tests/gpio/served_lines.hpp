@@ -5,10 +5,8 @@
 
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_file.hpp"
-#include "host_sim/ports/gpio/gpio_switches.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
-#include "host_sim/ports/gpio/line_inputs.hpp"
-#include "host_sim/ports/gpio/line_spindle.hpp"
+#include "host_sim/ports/gpio/line_outputs.hpp"
 #include "host_sim/serve/serve_settings.hpp"
 #include "host_sim/serve/served_motion.hpp"
 #include "host_sim/serve/served_target.hpp"
@@ -166,17 +164,9 @@ public:
 private:
     [[nodiscard]] std::unique_ptr<splinefeed::host::ProgramOutputs> outputs() {
         using namespace splinefeed::host;
-        const MachineDescription& machine = run_machine_.machine;
-        std::unique_ptr<RunSpindle> spindle;
-        ProgramOutputs::Switches switches;
-        ProgramOutputs::Inputs inputs;
-        if (machine.spindle && machine.spindle->lines) {
-            spindle = std::make_unique<LineSpindle>(*machine.spindle->lines, machine.lines,
-                                                    machine.spindle->at_speed_timeout_s, chips.all, clock);
-        }
-        switches.push_back(std::make_unique<GpioSwitches>(machine.lines, chips.all));
-        inputs.push_back(std::make_unique<LineInputs>(machine.lines, chips.all, clock));
-        return std::make_unique<ProgramOutputs>(std::move(spindle), std::move(switches), std::move(inputs), clock);
+        OutputParts parts = line_outputs(run_machine_.machine, chips.all, clock);
+        return std::make_unique<ProgramOutputs>(std::move(parts.spindle), ProgramOutputs::Switches{parts.switches},
+                                                ProgramOutputs::Inputs{parts.inputs}, clock);
     }
     [[nodiscard]] std::uint32_t now_ms() const { return static_cast<std::uint32_t>(clock.now_ns() / 1'000'000); }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/abandon.hpp"
-#include "host_sim/base/deadline.hpp"
 
 #include "host_sim/base/output_file.hpp"
 #include "support/catch.hpp"

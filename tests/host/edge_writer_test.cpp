@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/output/edge_writer.hpp"
+#include "host_sim/output/segment_output.hpp"
 
 #include "host_sim/config/step_lines.hpp"
 #include "support/catch.hpp"
@@ -41,11 +41,11 @@ std::vector<FeedSegment> there_and_back() {
 std::vector<std::string> written(const MachineDescription& machine) {
     const TemporaryFolder folder;
     OutputFile file(folder.file("e.csv"));
-    EdgeWriter writer(file, machine);
+    const auto writer = segment_output_kinds()[1].make(file, machine);
     for (const FeedSegment& segment : there_and_back()) {
-        writer.segment(segment);
+        writer->segment(segment);
     }
-    writer.finish();
+    writer->finish();
     file.commit();
     return lines_of(folder.file("e.csv"));
 }

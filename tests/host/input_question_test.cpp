@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/input_question.hpp"
+#include "host_sim/ports/program_outputs.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/report/layer_times.hpp"
+#include "host_sim/report/line_times.hpp"
 
 #include "support/catch.hpp"
 

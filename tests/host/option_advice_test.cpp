@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/program/gcode/option_advice.hpp"
+#include "host_sim/program/gcode/dialect_hint.hpp"
 
 #include "support/catch.hpp"
 

@@ -6,7 +6,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/planning/path_curve.hpp"
-#include "host_sim/planning/path_tee.hpp"
+#include "host_sim/planning/scalar_path.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/pending_steps.hpp"
+#include "host_sim/run/program_steps.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/output/segment_writer.hpp"
+#include "host_sim/output/segment_output.hpp"
 
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
@@ -25,9 +25,9 @@ TEST_CASE("segments are written as integers under their units") {
     segment.start_velocity = {0, 3};
     segment.end_velocity = {-4, 5};
     OutputFile file(folder.file("s.csv"));
-    SegmentWriter writer(file, machine);
-    writer.segment(segment);
-    writer.segment(FeedSegment{});
+    const auto writer = segment_output_kinds()[0].make(file, machine);
+    writer->segment(segment);
+    writer->segment(FeedSegment{});
     file.commit();
 
     const std::vector<std::string> lines = lines_of(folder.file("s.csv"));

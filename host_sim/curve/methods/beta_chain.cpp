@@ -39,12 +39,12 @@ void take(Chain& chain, std::vector<PerAxis<double>>& out, const json& array, co
           std::size_t count) {
     const PointList list = points_of(array, what, count);
     if (list.points.size() != count) {
-        throw DescriptionError(fmt::format("{} has {} points; with degree {} and order {} it must have {}", what,
-                                           list.points.size(), chain.degree, chain.order, count));
+        throw DescriptionError("{} has {} points; with degree {} and order {} it must have {}", what,
+                               list.points.size(), chain.degree, chain.order, count);
     }
     if (count > 0 && chain.axes != 0 && list.axes != chain.axes) {
-        throw DescriptionError(fmt::format("{} has points of {} numbers; they must have {}, like those before", what,
-                                           list.axes, chain.axes));
+        throw DescriptionError("{} has points of {} numbers; they must have {}, like those before", what, list.axes,
+                               chain.axes);
     }
     chain.axes = count > 0 ? list.axes : chain.axes;
     out.insert(out.end(), list.points.begin(), list.points.end());
@@ -59,7 +59,7 @@ Chain read(const json& input) {
     const auto degree = static_cast<std::size_t>(chain.degree);
     const auto order = static_cast<std::size_t>(chain.order);
     if (chain.degree < chain.order) {
-        throw DescriptionError(fmt::format("\"degree\" is {}; order {} takes at least {}", degree, order, order));
+        throw DescriptionError("\"degree\" is {}; order {} takes at least {}", degree, order, order);
     }
     if (chain.closed && degree < 2 * order + 1) {
         require(Error::closed_chain_overlaps);
@@ -71,16 +71,14 @@ Chain read(const json& input) {
     const json& betas = array_in(input, "betas", 0, "objects with \"beta1\" and \"beta2\"");
     const json& free = array_in(input, "free_points", 0, "polygons");
     if (free.size() != betas.size() || (chain.closed && betas.empty())) {
-        throw DescriptionError(
-            fmt::format("there are {} polygons of \"free_points\" and {} \"betas\"; each joint takes "
-                        "one of either, and a closed chain has a joint",
-                        free.size(), betas.size()));
+        throw DescriptionError("there are {} polygons of \"free_points\" and {} \"betas\"; each joint takes "
+                               "one of either, and a closed chain has a joint",
+                               free.size(), betas.size());
     }
     for (std::size_t j = 0; j < betas.size(); ++j) {
         take(chain, chain.free_points, free[j], fmt::format("\"free_points\", polygon {}", j + 1), degree - order);
         if (!betas[j].is_object()) {
-            throw DescriptionError(
-                fmt::format("\"betas\", joint {} must be an object with \"beta1\" and \"beta2\"", j + 1));
+            throw DescriptionError("\"betas\", joint {} must be an object with \"beta1\" and \"beta2\"", j + 1);
         }
         require_known(betas[j], {"beta1", "beta2"}, fmt::format("\"betas\", joint {}", j + 1));
         chain.betas.push_back({number_in(betas[j], "beta1"), number_in(betas[j], "beta2", 0.0)});
@@ -108,14 +106,14 @@ Built<S> build(const Chain& chain, const Unit<S>& unit) {
     for (std::size_t j = 0; j < chain.betas.size(); ++j) { // pure numbers: they do not take the unit of length
         const auto [beta1, beta2] = chain.betas[j];
         if (std::same_as<S, Fixed> && (std::fabs(beta1) > 8192.0 || std::fabs(beta2) > 0x1p29)) {
-            throw DescriptionError(fmt::format("joint {}: fixed-point numbers take beta1 up to 8192 and beta2 within "
-                                               "+-2^29; use --scalar double",
-                                               j + 1));
+            throw DescriptionError("joint {}: fixed-point numbers take beta1 up to 8192 and beta2 within "
+                                   "+-2^29; use --scalar double",
+                                   j + 1);
         }
         betas.push_back({from_double<S>(beta1), from_double<S>(beta2)});
         if (beta1 > 0.0 && !(betas.back().beta1 > S{})) {
-            throw DescriptionError(
-                fmt::format("joint {}: beta1 is {:g}, which is 0 in these numbers; use --scalar double", j + 1, beta1));
+            throw DescriptionError("joint {}: beta1 is {:g}, which is 0 in these numbers; use --scalar double", j + 1,
+                                   beta1);
         }
     }
     const BetaChain<S> described{chain.degree, chain.order, chain.closed, first, free, betas};
@@ -125,7 +123,7 @@ Built<S> build(const Chain& chain, const Unit<S>& unit) {
     std::size_t failed = described.joint_count();
     const Status status = beta_chain<S>(described, built.pieces, built.joints, &failed);
     if (!status.ok() && failed < described.joint_count()) {
-        throw DescriptionError(fmt::format("joint {}: {}", failed + 1, describe(status.error())));
+        throw DescriptionError("joint {}: {}", failed + 1, describe(status.error()));
     }
     require(status);
     return built;
@@ -159,11 +157,10 @@ void require_digits(const Chain& chain, double largest) {
         }
     }
     if (largest > 0x1p30 * given) { // the points would keep less than 26 bits
-        throw DescriptionError(
-            fmt::format("the chain grows from joint to joint, to {:.3g} times its largest coordinate: too "
-                        "far for fixed-point numbers; use a higher degree, which leaves more points "
-                        "free, or fewer joints",
-                        largest / given));
+        throw DescriptionError("the chain grows from joint to joint, to {:.3g} times its largest coordinate: too "
+                               "far for fixed-point numbers; use a higher degree, which leaves more points "
+                               "free, or fewer joints",
+                               largest / given);
     }
 }
 
@@ -216,9 +213,9 @@ nlohmann::json chain_input(const CurveChoice& choice, const std::vector<PerAxis<
     const std::size_t first = choice.closed ? 0 : degree + 1;
     if (points.size() < first || (free > 0 && (points.size() - first) % free != 0) ||
         (free == 0 && points.size() != first)) {
-        throw DescriptionError(fmt::format(
+        throw DescriptionError(
             "there are {} points; a chain of degree {} takes {} for its first polygon and {} for each one after it",
-            points.size(), degree, first, free));
+            points.size(), degree, first, free);
     }
     input["degree"] = choice.degree;
     input["order"] = order;

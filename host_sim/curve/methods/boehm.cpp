@@ -3,8 +3,6 @@
 
 #include "splinefeed/splines/boehm.hpp"
 
-#include <fmt/format.h>
-
 namespace splinefeed::host {
 
 template <Scalar S>
@@ -23,8 +21,8 @@ DescribedCurve describe_boehm(const nlohmann::json& input) {
     const std::vector<Point<S>> vertices = unit.in(list);
     const std::int64_t count = boehm_pieces(static_cast<std::int64_t>(vertices.size()), degree, curve.closed);
     if (count < 1) {
-        throw DescriptionError(fmt::format("\"vertices\" has {} different points; {} need at least {}", vertices.size(),
-                                           curve.closed ? "closed curves" : "open ones", fewest));
+        throw DescriptionError("\"vertices\" has {} different points; {} need at least {}", vertices.size(),
+                               curve.closed ? "closed curves" : "open ones", fewest);
     }
     std::vector<BezierPiece<S>> pieces(static_cast<std::size_t>(count));
     require(boehm<S>(vertices, degree, curve.closed, pieces));

@@ -49,9 +49,8 @@ void read_degree(const json& input, Request& request) {
     kind.degree = integer_in(input, "degree", 1, max_degree, std::min(3, highest));
     if (kind.degree > highest) {
         if (!absent && points > 2) {
-            throw DescriptionError(fmt::format("\"degree\" is {}; {} points{} determine a curve of degree {} at most",
-                                               kind.degree, points, kind.end_derivatives ? " with end tangents" : "",
-                                               highest));
+            throw DescriptionError("\"degree\" is {}; {} points{} determine a curve of degree {} at most", kind.degree,
+                                   points, kind.end_derivatives ? " with end tangents" : "", highest);
         }
         kind.degree = highest; // two points: a straight line
     }
@@ -86,8 +85,8 @@ Request read_request(const json& input) {
                                  Parameterization::centripetal};
         request.how = how[choice_in(input, "parameters", {"uniform", "chord", "chordal", "centripetal"}, 1)];
     } else if (request.parameters.size() != points) {
-        throw DescriptionError(fmt::format("\"parameters\" has {} numbers; it must have {}, one a point",
-                                           request.parameters.size(), points));
+        throw DescriptionError("\"parameters\" has {} numbers; it must have {}, one a point", request.parameters.size(),
+                               points);
     }
     request.knots = given(input, "knots");
     const std::size_t needed = request.kind.knots(points);
@@ -100,8 +99,8 @@ Request read_request(const json& input) {
             choice_in(input, "knots", {"uniform", "average", "average_tangents", "params", "midpoints"},
                       static_cast<std::size_t>(usual)));
     } else if (request.knots.size() != needed) {
-        throw DescriptionError(fmt::format("\"knots\" has {} numbers; degree {} through {} points needs {}",
-                                           request.knots.size(), request.kind.degree, points, needed));
+        throw DescriptionError("\"knots\" has {} numbers; degree {} through {} points needs {}", request.knots.size(),
+                               request.kind.degree, points, needed);
     }
     const double spans = static_cast<double>(points) - (request.kind.closed ? 0.0 : 1.0);
     const double usual = !request.kind.closed && !request.parameters.empty() ? request.parameters.back() : spans;

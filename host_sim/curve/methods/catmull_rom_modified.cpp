@@ -5,7 +5,6 @@
 #include "splinefeed/splines/catmull_rom_modified.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -32,12 +31,12 @@ template <Scalar S>
 void require_in_range(double factor, bool chord_mode, const Unit<S>& unit) {
     const double most = chord_mode ? 2.0 : std::same_as<S, Fixed> ? std::ldexp(1.0, 20 + unit.exponent()) : 0x1p20;
     if (factor < 0.0 || factor > most) {
-        throw DescriptionError(fmt::format("\"factor\" is {:g}; {} must lie between 0 and {:.10g}{}", factor,
-                                           chord_mode ? "with \"mode\": \"chord\" it" : "as a constant length it", most,
-                                           chord_mode ? ""
-                                           : std::same_as<S, Fixed>
-                                               ? " mm in fixed-point numbers with these points; use --scalar double"
-                                               : " mm"));
+        throw DescriptionError("\"factor\" is {:g}; {} must lie between 0 and {:.10g}{}", factor,
+                               chord_mode ? "with \"mode\": \"chord\" it" : "as a constant length it", most,
+                               chord_mode ? ""
+                               : std::same_as<S, Fixed>
+                                   ? " mm in fixed-point numbers with these points; use --scalar double"
+                                   : " mm");
     }
 }
 
@@ -58,9 +57,9 @@ DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input) {
     for (std::size_t i = 0; i + (curve.closed ? 0U : 1U) < list.points.size(); ++i) {
         const std::size_t next = (i + 1) % list.points.size();
         if (list.points.size() > 1 && list.points[i] == list.points[next]) {
-            throw DescriptionError(fmt::format("\"points\": points {} and {} are the same; leave one out, the modified "
-                                               "curve divides by their distance",
-                                               i + 1, next + 1));
+            throw DescriptionError("\"points\": points {} and {} are the same; leave one out, the modified "
+                                   "curve divides by their distance",
+                                   i + 1, next + 1);
         }
     }
     // The largest coordinate becomes 2^17 to 2^18 in Fixed, see farthest_coordinate.

@@ -15,10 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-[[noreturn]] void fail(const std::string& what) {
-    throw DescriptionError(what);
-}
-
 // null where the key is missing.
 const json& field(const json& input, const char* key) {
     static const json nothing;
@@ -28,7 +24,7 @@ const json& field(const json& input, const char* key) {
 
 void require_present(const json& value, const char* key, std::string_view kind) {
     if (value.is_null()) {
-        fail(fmt::format("\"{}\" is missing; it must be {}", key, kind));
+        throw DescriptionError("\"{}\" is missing; it must be {}", key, kind);
     }
 }
 
@@ -36,9 +32,9 @@ void require_present(const json& value, const char* key, std::string_view kind) 
 
 void require_known(const json& object, std::initializer_list<std::string_view> known, std::string_view what) {
     for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end()) {
-            fail(fmt::format("{} has an unknown key {}{}", what, in_quotes(key),
-                             suggestion(key, {known.begin(), known.size()})));
+        if (std::ranges::find(known, key) == known.end()) {
+            throw DescriptionError("{} has an unknown key {}{}", what, in_quotes(key),
+                                   suggestion(key, {known.begin(), known.size()}));
         }
     }
 }
@@ -50,13 +46,13 @@ double number_of(const json& value, std::string_view what) {
     } else if (value.is_string()) {
         const auto& text = value.get_ref<const std::string&>();
         if (const NumberText read = read_number(text, result); read != NumberText::number) {
-            fail(fmt::format("{}: {} {}", what, in_quotes(text), why_no_number(read)));
+            throw DescriptionError("{}: {} {}", what, in_quotes(text), why_no_number(read));
         }
     } else {
-        fail(fmt::format("{} must be a number, or one as a text in quotes", what));
+        throw DescriptionError("{} must be a number, or one as a text in quotes", what);
     }
     if (!std::isfinite(result)) {
-        fail(fmt::format("{} must be finite", what));
+        throw DescriptionError("{} must be finite", what);
     }
     return result;
 }
@@ -76,7 +72,7 @@ int integer_in(const json& input, const char* key, int low, int high) {
     require_present(value, key, fmt::format("a whole number from {} to {}", low, high));
     const double number = number_of(value, fmt::format("\"{}\"", key));
     if (number != std::floor(number) || number < low || number > high) {
-        fail(fmt::format("\"{}\" is {:.17g}; it must be a whole number from {} to {}", key, number, low, high));
+        throw DescriptionError("\"{}\" is {:.17g}; it must be a whole number from {} to {}", key, number, low, high);
     }
     return static_cast<int>(number);
 }
@@ -91,7 +87,7 @@ bool flag_in(const json& input, const char* key, bool otherwise) {
         return otherwise;
     }
     if (!value.is_boolean()) {
-        fail(fmt::format("\"{}\" must be true or false", key));
+        throw DescriptionError("\"{}\" must be true or false", key);
     }
     return value.get<bool>();
 }
@@ -103,9 +99,9 @@ std::size_t choice_in(const json& input, const char* key, std::initializer_list<
         return otherwise;
     }
     const std::string text = value.is_string() ? value.get<std::string>() : "";
-    const auto* const found = std::find(names.begin(), names.end(), text);
+    const auto* const found = std::ranges::find(names, text);
     if (found == names.end()) {
-        fail(fmt::format("\"{}\" must be one of {}", key, listed({names.begin(), names.size()})));
+        throw DescriptionError("\"{}\" must be one of {}", key, listed({names.begin(), names.size()}));
     }
     return static_cast<std::size_t>(found - names.begin());
 }
@@ -119,7 +115,7 @@ std::vector<double> numbers_in(const json& input, const char* key, std::size_t c
         return std::vector<double>(count, number_of(value, fmt::format("\"{}\"", key)));
     }
     if (value.size() != count) {
-        fail(fmt::format("\"{}\" has {} numbers; it must have {}, one a joint", key, value.size(), count));
+        throw DescriptionError("\"{}\" has {} numbers; it must have {}, one a joint", key, value.size(), count);
     }
     std::vector<double> numbers;
     for (const json& number : value) {
@@ -146,18 +142,18 @@ PointList points_in(const json& input, const char* key, std::size_t fewest) {
 
 PointList points_of(const json& array, std::string_view what, std::size_t fewest) {
     if (!array.is_array() || array.size() < fewest) {
-        fail(fmt::format("{} must be an array of at least {} points", what, fewest));
+        throw DescriptionError("{} must be an array of at least {} points", what, fewest);
     }
     PointList list;
     for (const json& point : array) {
         const std::string name = fmt::format("{}, point {}", what, list.points.size() + 1);
         const std::size_t size = point.is_array() ? point.size() : 0;
         if (size < 1 || size > static_cast<std::size_t>(max_axes)) {
-            fail(fmt::format("{} must be an array of one to {} numbers", name, max_axes));
+            throw DescriptionError("{} must be an array of one to {} numbers", name, max_axes);
         }
         list.axes = list.axes == 0 ? static_cast<int>(size) : list.axes;
         if (size != static_cast<std::size_t>(list.axes)) {
-            fail(fmt::format("{} has {} numbers; it must have {}, like those before it", name, size, list.axes));
+            throw DescriptionError("{} has {} numbers; it must have {}, like those before it", name, size, list.axes);
         }
         PerAxis<double>& added = list.points.emplace_back();
         for (std::size_t k = 0; k < size; ++k) {
@@ -184,7 +180,7 @@ bool vector_in(const json& input, const char* key, int axes, PerAxis<double>& ou
         return false;
     }
     if (!value.is_array() || value.size() != static_cast<std::size_t>(axes)) {
-        fail(fmt::format("\"{}\" must be an array of {} numbers, one for each axis of the points", key, axes));
+        throw DescriptionError("\"{}\" must be an array of {} numbers, one for each axis of the points", key, axes);
     }
     for (std::size_t k = 0; k < value.size(); ++k) {
         out[k] = number_of(value[k], fmt::format("\"{}\"", key));
@@ -206,12 +202,12 @@ S Unit<S>::in(double mm) const {
     if constexpr (std::same_as<S, Fixed>) {
         const double value = std::ldexp(mm, -exponent_);
         if (!(std::fabs(value) < 0x1p30)) {
-            fail(fmt::format("{:.6g} is beyond the range of fixed-point numbers here; use --scalar double", mm));
+            throw DescriptionError("{:.6g} is beyond the range of fixed-point numbers here; use --scalar double", mm);
         }
         return from_double<S>(value);
     } else {
         if (!(std::fabs(mm) < 1e30)) {
-            fail(fmt::format("{:.6g} is out of range; numbers must lie within +-1e30", mm));
+            throw DescriptionError("{:.6g} is out of range; numbers must lie within +-1e30", mm);
         }
         return from_double<S>(mm);
     }
@@ -282,7 +278,7 @@ std::vector<BezierPiece<double>> Unit<S>::out(const std::vector<BezierPiece<S>>&
 
 void require(Status status) {
     if (!status.ok()) {
-        fail(describe(status.error()));
+        throw DescriptionError(describe(status.error()));
     }
 }
 

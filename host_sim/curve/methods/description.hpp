@@ -3,13 +3,13 @@
 // from it.
 #pragma once
 
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/curve/methods/parameter_interval.hpp"
 
 #include "splinefeed/splines/bezier_piece.hpp"
 
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +19,8 @@ namespace splinefeed::host {
 inline constexpr double longest_mm = 65536.0; ///< of a segment that a file describes
 
 /// What is wrong with a description and what would be right; the code that reads the file adds the file's name.
-struct DescriptionError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct DescriptionError : TextError {
+    using TextError::TextError;
 };
 
 /// A curve that was computed from a description, in mm.

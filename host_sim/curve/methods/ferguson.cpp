@@ -34,10 +34,10 @@ std::vector<FergusonJoint<double>> joints_in(const json& input, const PointList&
     std::vector<FergusonJoint<double>> joints(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (delta[i] != 1.0 && delta[i] != -1.0) {
-            throw DescriptionError(fmt::format("\"delta\", number {}: it must be 1, -1, or \"auto\" for all", i + 1));
+            throw DescriptionError("\"delta\", number {}: it must be 1, -1, or \"auto\" for all", i + 1);
         }
         if (!(lambda[i] > 0.0)) {
-            throw DescriptionError(fmt::format("\"lambda\", number {}: it must be positive", i + 1));
+            throw DescriptionError("\"lambda\", number {}: it must be positive", i + 1);
         }
         // What is out of the range of every scalar stays so, and the end tangents that follow from it within theirs.
         joints[i] = {std::clamp(lambda[i], 0x1p-21, 0x1p21), mu[i], delta[i] > 0.0 ? 1 : -1};
@@ -80,7 +80,7 @@ std::vector<std::string> warnings_of(const std::vector<FergusonJoint<double>>& j
                 fmt::format("points {} and {} are the same: the curve makes a small loop there", i + 1, i + 2));
         }
     }
-    const auto flips = std::count_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.delta < 0; });
+    const auto flips = std::ranges::count_if(joints, [](const auto& joint) { return joint.delta < 0; });
     if (flips > 0) {
         warnings.push_back(fmt::format("the curvature flips at {} point{}: |kappa| is continuous, the curve is not G2",
                                        flips, flips == 1 ? "" : "s"));
@@ -106,7 +106,7 @@ json classes_of(const std::vector<FergusonJoint<S>>& joints, const std::vector<P
     json classes = json::array();
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const Point<S>& tangent = tangents[closed ? i : i + 1];
-        const bool zero = std::all_of(tangent.begin(), tangent.end(), [noise](S x) { return absolute(x) <= noise; });
+        const bool zero = std::ranges::all_of(tangent, [noise](S x) { return absolute(x) <= noise; });
         classes.push_back(name_of(ferguson_class(joints[i], zero)));
     }
     return classes;
@@ -140,6 +140,7 @@ template <Scalar S>
 std::vector<FergusonJoint<S>> joints_of(const std::vector<FergusonJoint<double>>& exact) {
     const double far = std::same_as<S, Fixed> ? 0x1p17 : 0x1p61; // beyond the range, and S can hold it
     std::vector<FergusonJoint<S>> joints;
+    joints.reserve(exact.size());
     for (const FergusonJoint<double>& joint : exact) {
         joints.push_back({from_double<S>(joint.lambda), from_double<S>(std::clamp(joint.mu, -far, far)), joint.delta});
     }
@@ -171,10 +172,10 @@ DescribedCurve describe_ferguson(const json& input) {
     const Status status = ferguson<S>({points, joints, curve.closed, unit.in(ends[0]), unit.in(ends[1])},
                                       {in, out, pieces, system}, report);
     if (status.error() == Error::system_singular) {
-        throw DescriptionError(fmt::format(
-            "the system for the tangents is singular, or nearly so, at point {}; use {}", report.weakest_knot + 1,
-            is_auto(input, "mu") ? "a \"lambda\" nearer to 1 there"
-                                 : "another \"mu\" or \"delta\" there, or \"mu\": \"auto\""));
+        throw DescriptionError("the system for the tangents is singular, or nearly so, at point {}; use {}",
+                               report.weakest_knot + 1,
+                               is_auto(input, "mu") ? "a \"lambda\" nearer to 1 there"
+                                                    : "another \"mu\" or \"delta\" there, or \"mu\": \"auto\"");
     }
     require(status);
     pieces.resize(report.segments);

@@ -5,8 +5,8 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/curve/methods/joint_report.hpp"
 
+#include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -80,12 +80,8 @@ constexpr std::array of_points{
 };
 
 const Row* find(std::string_view method) noexcept {
-    for (const Row& row : table) {
-        if (row.name == method) {
-            return &row;
-        }
-    }
-    return nullptr;
+    const auto* const row = std::ranges::find(table, method, &Row::name);
+    return row != table.end() ? row : nullptr;
 }
 
 } // namespace
@@ -121,8 +117,7 @@ DescribedCurve describe_curve(std::string_view method, const nlohmann::json& inp
     const Row* const row = find(method);
     if (row == nullptr) {
         const std::vector<std::string_view> names = described_methods();
-        throw DescriptionError(
-            fmt::format("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names)));
+        throw DescriptionError("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names));
     }
     DescribedCurve curve = scalar == ScalarKind::fixed     ? row->fixed(input)
                            : scalar == ScalarKind::float32 ? row->single(input)

@@ -38,9 +38,8 @@ GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& 
         auto watch = std::make_unique<InputWatch>(
             *inputs.source, watched, port.log(), [&port] { port.disable(); }, settings);
         if (!watch->start()) {
-            throw TargetError(fmt::format("the inputs of {} cannot be read: {}",
-                                          map.chips[map.inputs[inputs.input.front()].line.chip].chip,
-                                          watch->trouble()));
+            throw TargetError("the inputs of {} cannot be read: {}",
+                              map.chips[map.inputs[inputs.input.front()].line.chip].chip, watch->trouble());
         }
         watched_.push_back({std::move(inputs.input), std::move(watch)});
     }
@@ -57,7 +56,7 @@ std::optional<SwitchChange> GpioInputs::take() {
 
 bool GpioInputs::active(std::size_t input) const {
     for (const Chip& chip : watched_) {
-        if (const auto at = std::find(chip.input.begin(), chip.input.end(), input); at != chip.input.end()) {
+        if (const auto at = std::ranges::find(chip.input, input); at != chip.input.end()) {
             return chip.watch->active(static_cast<std::size_t>(at - chip.input.begin()));
         }
     }

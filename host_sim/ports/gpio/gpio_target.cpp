@@ -62,17 +62,15 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
     const std::vector<std::uint64_t> times = chips_->set_times_ns(measured_calls);
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
     if (asked_edges_per_s(machine) > most_edges_per_s(mean_ns)) {
-        throw UsageError(
-            fmt::format("--target: a call that sets lines takes {:.1f} us on this chip, so that they can be "
-                        "set {:.0f} times a second, and the machine's limits may ask for {:.0f}; lower its "
-                        "velocities, max_feed_mm_s or steps_per_mm",
-                        mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine)));
+        throw UsageError("--target: a call that sets lines takes {:.1f} us on this chip, so that they can be "
+                         "set {:.0f} times a second, and the machine's limits may ask for {:.0f}; lower its "
+                         "velocities, max_feed_mm_s or steps_per_mm",
+                         mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine));
     }
     if (options.probe && !has(InputRole::probe)) {
         throw UsageError("--probe: the map has no input with the role probe");
     }
-    if (options.home &&
-        std::none_of(map_->home.begin(), map_->home.end(), [](const auto& home) { return home.has_value(); })) {
+    if (options.home && std::ranges::none_of(map_->home, [](const auto& home) { return home.has_value(); })) {
         throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
     }
 }
@@ -90,7 +88,7 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
 }
 
 bool GpioTarget::has(InputRole role) const noexcept {
-    return std::any_of(map_->inputs.begin(), map_->inputs.end(), [&](const auto& input) { return input.role == role; });
+    return std::ranges::any_of(map_->inputs, [&](const auto& input) { return input.role == role; });
 }
 
 // The lines become safe when nobody sets any more.

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: MIT
-// LineOutputs: what a program switches and reads by GPIO lines in a run.
+// line_outputs: the spindle, the coolant, the outputs and the inputs of a machine on lines of GPIO chips.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
-#include "host_sim/ports/run_inputs.hpp"
-#include "host_sim/ports/run_spindle.hpp"
-#include "host_sim/ports/run_switches.hpp"
+#include "host_sim/ports/gpio/program_chips.hpp"
+#include "host_sim/ports/output_parts.hpp"
 
-#include <memory>
+#include "splinefeed/hal/rt/clock.hpp"
 
 namespace splinefeed::host {
 
-/// Null: the machine has none on lines.
-struct LineOutputs {
-    std::unique_ptr<RunSpindle> spindle;
-    std::unique_ptr<RunSwitches> switches;
-    std::unique_ptr<RunInputs> inputs;
-};
+/// On the machine's lines, which are as they are safe. `machine` must outlive them.
+[[nodiscard]] OutputParts line_outputs(const MachineDescription& machine, const ProgramChips& chips,
+                                       hal::Clock& clock = hal::system_clock());
 
-/// Requests the lines: all are as they are safe. Throws TargetError. `machine` must outlive them.
-[[nodiscard]] LineOutputs make_line_outputs(const MachineDescription& machine);
+/// Requests the lines. Throws TargetError. `machine` must outlive them.
+[[nodiscard]] OutputParts make_line_outputs(const MachineDescription& machine);
 
 } // namespace splinefeed::host

@@ -5,7 +5,7 @@
 
 namespace splinefeed::host {
 
-LineOutputs make_line_outputs(const MachineDescription& machine) {
+OutputParts make_line_outputs(const MachineDescription& machine) {
     if (!machine.lines.empty()) {
         throw UsageError(machine.file +
                          ": its lines of spindle, coolant, outputs and inputs need libgpiod, which this splinefeed "

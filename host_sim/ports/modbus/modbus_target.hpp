@@ -76,6 +76,10 @@ private:
         return all.empty() ? "; nothing was moved" : text.text();
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    void set_ready(const RunOptions& options) override {
+        home_ = options.home;
+        port_.set_ready(options.home, options.reset, options.home_axes);
+    }
     [[nodiscard]] bool halts() const noexcept override { return true; }
     [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override { return 220'000; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {

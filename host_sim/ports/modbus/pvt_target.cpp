@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -51,12 +50,12 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
         const AxisSettings& axis = machine.settings.axis[k];
         const double counts = axis.max_velocity_mm_s * axis.steps_per_mm * segment_us / us_per_s;
         if (counts * margin >= pvt_velocity_range) {
-            throw UsageError(fmt::format(
+            throw UsageError(
                 "axis {}: {} mm/s at {} counts/mm are {:.0f} counts in a segment of {:.2f} ms, and splinefeed-pvt "
                 "carries {:.0f}; lower max_velocity_mm_s or steps_per_mm, or take a faster line or a shorter "
                 "sample_period_us",
                 machine.axis_name[k], axis.max_velocity_mm_s, axis.steps_per_mm, counts, segment_us * 1e-3,
-                pvt_velocity_range / margin));
+                pvt_velocity_range / margin);
         }
     }
 }
@@ -67,8 +66,7 @@ PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const 
 }
 
 bool PvtTarget::resamples() const noexcept {
-    return std::all_of(table_.drives.begin(), table_.drives.end(),
-                       [](const DriveTable::Drive& drive) { return drive.address.resample; });
+    return std::ranges::all_of(table_.drives, [](const DriveTable::Drive& drive) { return drive.address.resample; });
 }
 
 std::vector<RunTarget::AxisPlace> PvtTarget::standing() {

@@ -24,10 +24,6 @@ public:
 
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
-    void set_ready(const RunOptions& options) override {
-        home_ = options.home;
-        port_.set_ready(options.home, options.reset, options.home_axes);
-    }
     [[nodiscard]] std::uint32_t homes_with(std::uint32_t axes) const override;
     void check(const MachineDescription& machine, double segment_us) const override {
         check_pvt_range(machine, segment_us);

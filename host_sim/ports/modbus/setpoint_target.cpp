@@ -84,11 +84,11 @@ void check_register_ranges(const DriveTable& table, const MachineDescription& ma
             if (field == nullptr || (q16 < most_q16 && !raw_of(*field, std::llround(q16)).clamped)) {
                 return;
             }
-            throw UsageError(fmt::format(
+            throw UsageError(
                 "axis {}: {} is {:.0f} counts, and the register {} of the profile {} holds {} to {} (scale {} / {}{}); "
                 "lower it or steps_per_mm, or look at width, scale and clamp in the profile",
                 machine.axis_name[k], what, counts, field->name, drive.profile.name, field->lowest, field->highest,
-                field->scale_numerator, field->scale_denominator, field->inverse ? ", inverse" : ""));
+                field->scale_numerator, field->scale_denominator, field->inverse ? ", inverse" : "");
         };
         if (drive.profile.stream == StreamWay::blocks) {
             const double ramp = ramp_mm_s2(drive, axis) * axis.steps_per_mm;
@@ -110,25 +110,25 @@ SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machi
     const std::uint32_t period_us = port_.period_us();
     for (const DriveTable::Drive& drive : table_.drives) {
         if (!machine.drives_on_at_end.value_or(true) && drive.profile.steps_of(DriveCommand::disable).empty()) {
-            throw UsageError(fmt::format("{}: drives_at_end is \"off\", and the profile {} has no command `disable`; "
-                                         "leave drives_at_end out",
-                                         drive.address.text, drive.profile.name));
+            throw UsageError("{}: drives_at_end is \"off\", and the profile {} has no command `disable`; "
+                             "leave drives_at_end out",
+                             drive.address.text, drive.profile.name);
         }
         if (drive.profile.stream == StreamWay::cyclic && period_us > drive.profile.period_us) {
-            throw UsageError(fmt::format("{}: the wire carries a target every {:.2f} ms at most often, and the drive "
-                                         "takes {:.2f} ms to get to one "
-                                         "(period_ms of {}): it would stand between them; set a longer interpolation "
-                                         "period in the drive, and as "
-                                         "period_ms in a copy of its profile",
-                                         drive.address.text, period_us * um_per_mm / us_per_s,
-                                         drive.profile.period_us * um_per_mm / us_per_s, drive.profile.name));
+            throw UsageError("{}: the wire carries a target every {:.2f} ms at most often, and the drive "
+                             "takes {:.2f} ms to get to one "
+                             "(period_ms of {}): it would stand between them; set a longer interpolation "
+                             "period in the drive, and as "
+                             "period_ms in a copy of its profile",
+                             drive.address.text, period_us * um_per_mm / us_per_s,
+                             drive.profile.period_us * um_per_mm / us_per_s, drive.profile.name);
         }
         if (!drive.address.resample && period_us > static_cast<unsigned>(machine.settings.sample_period_us)) {
-            throw UsageError(fmt::format(
+            throw UsageError(
                 "{}: the wires carry a target every {:.2f} ms at most often, and the machine file asks for one "
                 "every {:.2f} ms; raise sample_period_us, take a faster line, or leave resample=no out",
                 drive.address.text, period_us * um_per_mm / us_per_s,
-                machine.settings.sample_period_us * um_per_mm / us_per_s));
+                machine.settings.sample_period_us * um_per_mm / us_per_s);
         }
     }
 }

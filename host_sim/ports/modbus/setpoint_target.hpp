@@ -31,10 +31,6 @@ public:
     // Targets are computed from the path at any instant, so segments may be as short as wanted.
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return true; }
-    void set_ready(const RunOptions& options) override {
-        home_ = options.home;
-        port_.set_ready(options.home, options.reset, options.home_axes);
-    }
     [[nodiscard]] std::string fit(MachineDescription& machine) const override { return fit_to_ramps(table_, machine); }
     void check(const MachineDescription& machine, double /*segment_us*/) const override {
         check_register_ranges(table_, machine, port_.period_us());

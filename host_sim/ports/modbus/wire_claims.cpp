@@ -32,7 +32,7 @@ WireClaims::WireClaims(const DriveTable& table) {
 void WireClaims::add(const DriveAddress& address) {
     const ResourceClaim& claim = claims_.emplace_back(resource_of(address.link));
     if (!claim.holder().empty()) {
-        throw TargetError(fmt::format("{}: {} uses it; end that first", address.text, claim.holder()));
+        throw TargetError("{}: {} uses it; end that first", address.text, claim.holder());
     }
 }
 

@@ -50,7 +50,7 @@ std::string_view without_long_comment(std::string_view text, std::size_t longest
 // Words that --ignore takes lead nowhere.
 FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant) {
     const auto ignores = [&](std::int16_t first, std::int16_t last) {
-        return std::any_of(settings.ignored.begin(), settings.ignored.end(), [&](const IgnoredWord& word) {
+        return std::ranges::any_of(settings.ignored, [&](const IgnoredWord& word) {
             return word.letter == 'M' &&
                    (word.tenths == IgnoredWord::any || (word.tenths >= first && word.tenths <= last));
         });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// dialect_hint: what a line means that is not as the dialect has it.
+// dialect_hint, option_advice: what a line means that is not as the dialect has it, and the option that helps.
 #pragma once
 
 #include "splinefeed/s0_program/program_errors.hpp"
@@ -13,5 +13,8 @@ namespace splinefeed::host {
 /// Empty: describe(error) says it.
 /// @param text  of the line, from what is wrong on
 [[nodiscard]] std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect dialect);
+
+/// What stands behind the core's sentence, from its semicolon on. Empty: no option helps.
+[[nodiscard]] std::string_view option_advice(ProgramError error);
 
 } // namespace splinefeed::host

@@ -6,7 +6,6 @@
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
-#include "host_sim/program/gcode/option_advice.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_items.hpp"
@@ -32,13 +31,73 @@ namespace {
 class GcodeMoves final : public MoveSource {
 public:
     GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar,
-               ProblemList* problems);
+               ProblemList* problems)
+        : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
+          tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
+                                : std::nullopt),
+          items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
+                               settings.max_feed_mm_s)),
+          interpreter_(items_->interpreter()),
+          flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings, coolant_)) {}
 
-    bool start(PerAxis<Position>& position) override;
-    bool next(SourceStep& out) override;
-    [[nodiscard]] bool wait(Patience patience) override;
+    bool start(PerAxis<Position>& position) override {
+        position = settings_->start;
+        if (settings_->left_out != nullptr) {
+            settings_->left_out->begin();
+        }
+        if (settings_->offsets) {
+            interpreter_.restore(*settings_->offsets);
+        }
+        interpreter_.start(settings_->start);
+        return true;
+    }
+
+    // One line at a time: whoever waits for a pipe wants to know after each.
+    bool next(SourceStep& out) override {
+        out.kind = StepKind::nothing;
+        if (asked_) {
+            return true;
+        }
+        if (!pending_) {
+            const bool enough = settings_->most_moves > 0 && history_.moves() >= settings_->most_moves;
+            if (interpreter_.has_ended() || enough) {
+                return false;
+            }
+            switch (cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_)) {
+            case ProgramFlow::Step::end:
+                end_input();
+                is_last_ = true;
+                break;
+            case ProgramFlow::Step::nothing: return true;
+            case ProgramFlow::Step::line:
+                last_line_ = line_.number;
+                cut_ = line_.whole ? Cut::no : cut_ == Cut::no ? Cut::ahead : Cut::read;
+                cut_ == Cut::ahead ? end_input() : read_line();
+                break;
+            }
+        }
+        pending_ = items_->next(item_, out.exact_points) == Pull::item;
+        if (pending_) {
+            take(out);
+        }
+        return pending_ || !is_last_;
+    }
+
+    [[nodiscard]] bool wait(Patience patience) override {
+        if (asked_) {
+            std::this_thread::sleep_for(patience);
+            return false;
+        }
+        return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
+    }
+
     [[nodiscard]] bool awaits_answer() const noexcept override { return asked_.has_value(); }
-    void answer(int value) override;
+
+    void answer(int value) override {
+        interpreter_.report_input(Decimal::from_integer(value));
+        asked_.reset();
+    }
+
     [[nodiscard]] int expected_answer() const noexcept override {
         return asked_ == InputWait::rise || asked_ == InputWait::high ? 1 : 0;
     }
@@ -49,36 +108,245 @@ public:
     [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override { return move; }
     [[nodiscard]] std::uint64_t line_of_row(std::uint64_t row) const noexcept override { return history_.line_of(row); }
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 1; }
-    [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
-    [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
-    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override;
+
+    [[nodiscard]] std::string name_of_move(std::uint64_t /*move*/, std::uint64_t line) const override {
+        return fmt::format("line {}", line);
+    }
+
+    [[nodiscard]] std::string name_of_row(std::uint32_t row) const override {
+        const std::uint64_t line = history_.line_of(row);
+        return line > 0 ? fmt::format("line {}", line) : fmt::format("move {}", row + std::uint64_t{1});
+    }
+
+    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override {
+        return {file_, step.line, text};
+    }
+
     [[nodiscard]] std::string without_moves(Error /*error*/) const override { return {}; }
     void passed(std::uint64_t row) noexcept override { history_.forget_before(row); }
-    [[nodiscard]] UnreadLines unread() override;
+
+    [[nodiscard]] UnreadLines unread() override {
+        UnreadLines out{line_.number, 0};
+        while (interpreter_.has_ended() && flow_.next_unread(line_)) {
+            TextCursor cursor(line_.text);
+            const char first = cursor.peek();
+            out.lines += first != '\0' && first != '(' && first != ';' && first != '%' ? 1 : 0;
+        }
+        return out;
+    }
 
 private:
     /// Whether a pipe ended within a line. Before it comes what the lines before it hold back.
     enum class Cut : std::uint8_t { no, ahead, read };
 
-    void read_line();
-    void end_input();
+    void read_line() {
+        if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
+            throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
+        }
+        if (settings_->left_out != nullptr) {
+            settings_->left_out->at_line(line_.number);
+        }
+        if (is_left_out()) {
+            return;
+        }
+        const std::string_view text = without_long_comment(line_.text, BlockInterpreter::longest_line);
+        const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
+        if (!status.ok()) {
+            report_block(status, text);
+            interpreter_.obey_refused();
+        }
+    }
+
+    void end_input() {
+        if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
+            report({file_, last_line_, describe(status.error)});
+        }
+    }
+
     /// Throws, unless problems are collected. @param cause  as of ProblemList::add
-    void report(const InputError& error, std::string_view cause = {});
-    void report_block(const BlockStatus& status, std::string_view text);
-    [[nodiscard]] bool is_left_out();
+    void report(const InputError& error, std::string_view cause = {}) {
+        if (problems_ == nullptr) {
+            throw InputError(error);
+        }
+        problems_->add(error, line_.number, cause);
+    }
+
+    void report_block(const BlockStatus& status, std::string_view text) {
+        const std::string_view rest =
+            text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
+        const std::string_view hint =
+            cut_ == Cut::read ? cut_line : dialect_hint(rest, status.error, settings_->dialect);
+        const std::string sentence =
+            hint.empty() ? std::string(describe(status.error)).append(option_advice(status.error)) : std::string(hint);
+        const bool says_dialect = sentence.find("--dialect") != std::string::npos;
+        const std::string place = in_the_line(status);
+        // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
+        const char letter = rest.empty() ? ' ' : upper_case(rest.front());
+        const bool is_code = letter == 'G' || letter == 'M';
+        report({file_, line_.number, std::uint64_t{status.column},
+                fmt::format("{}{}{}", place, sentence, says_dialect ? std::string_view() : guess())},
+               (is_code || place.empty() ? place : std::string(1, letter)) + sentence);
+    }
+
+    // A line that is no G-code, or that the user wants to be left out. Macros that nobody speaks of are named.
+    [[nodiscard]] bool is_left_out() {
+        const std::string_view word = left_out_line(line_.text, *settings_);
+        const std::string_view macro = macro_name(line_.text);
+        if (!word.empty() && settings_->left_out != nullptr) {
+            settings_->left_out->add_line(word);
+        }
+        if (word.empty() && !macro.empty() &&
+            (has_macros(settings_->dialect) || macro.find('_') != std::string_view::npos)) {
+            report(
+                {file_, line_.number,
+                 fmt::format("{}: it is a macro or an extended command of a printer; --ignore {} leaves its lines out, "
+                             "--ignore unknown all of this kind{}",
+                             in_quotes(macro), macro, guess())},
+                macro);
+            return true;
+        }
+        return !word.empty();
+    }
+
     /// What the program looks like, once.
     [[nodiscard]] std::string_view guess() const noexcept {
         const bool is_first = problems_ == nullptr || problems_->empty();
         return is_first ? std::string_view(settings_->dialect_guess) : std::string_view();
     }
-    void take(SourceStep& out);
-    void take_move(SourceStep& out) const;
-    void take_event(SourceStep& out);
-    void note_coolant(EventKind kind);
-    void take_input(SourceStep& out);
-    void take_spindle(SourceStep& out, EventKind kind);
-    void require_possible(MoveKind kind) const;
-    [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
+
+    void take(SourceStep& out) {
+        const bool ends = item_.kind == ItemKind::event && (item_.event.kind == EventKind::program_end ||
+                                                            item_.event.kind == EventKind::offsets_changed);
+        if (cut_ == Cut::read && !ends) {
+            throw InputError(file_, last_line_, cut_line);
+        }
+        out.line = item_.line;
+        out.stops = item_.stops_before;
+        out.dwell_s = 0.0;
+        switch (item_.kind) {
+        case ItemKind::move:
+            out.kind = StepKind::move;
+            take_move(out);
+            break;
+        case ItemKind::dwell:
+            out.kind = StepKind::dwell;
+            out.dwell_s = number_of(item_.dwell_s);
+            break;
+        case ItemKind::event:
+            out.kind = StepKind::event;
+            take_event(out);
+            break;
+        }
+    }
+
+    void take_move(SourceStep& out) const {
+        if (!settings_->simulated) {
+            require_possible(item_.move);
+        }
+        out.move = item_.element;
+        out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
+    }
+
+    void take_event(SourceStep& out) {
+        const ProgramEvent& event = item_.event;
+        if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_);
+            !why.empty()) {
+            throw InputError(file_, item_.line, why);
+        }
+        out.action.kind = event.kind;
+        out.action.number = event.number;
+        out.action.value = number_of(event.value);
+        out.action.text.assign(event.text.of(line_.text));
+        out.action.spindle.reset();
+        note_coolant(event.kind);
+        if (ProgramSpindle::is_of(event.kind)) {
+            take_spindle(out, event.kind);
+        } else if (event.kind == EventKind::tool_change || event.kind == EventKind::spindle_orient) {
+            take_spindle(out, EventKind::spindle_stop); // as in LinuxCNC
+        }
+        out.offsets = event.kind == EventKind::offsets_changed
+                          ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
+                          : nullptr;
+        if (event.kind == EventKind::input_wait) {
+            take_input(out);
+        }
+    }
+
+    void note_coolant(EventKind kind) {
+        const bool off = kind == EventKind::coolant_off;
+        coolant_.mist = kind == EventKind::mist_on || (coolant_.mist && !off);
+        coolant_.flood = kind == EventKind::flood_on || (coolant_.flood && !off);
+    }
+
+    // Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.
+    void take_input(SourceStep& out) {
+        const ProgramEvent& event = item_.event;
+        if (!settings_->simulated) {
+            out.action.wait = event.wait;
+            asked_ = event.wait;
+            return;
+        }
+        if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
+            if (const std::string why = impossible(event, *settings_); !why.empty()) {
+                report({file_, item_.line, why});
+            }
+        }
+        const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
+        out.dwell_s = met ? 0.0 : number_of(event.value);
+        interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+    }
+
+    // A real spindle is waited for at standstill; the simulated one takes its time.
+    void take_spindle(SourceStep& out, EventKind kind) {
+        if (settings_->spindle == nullptr) {
+            return;
+        }
+        const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
+        if (!problem.empty()) {
+            report(InputError(file_, item_.line, problem));
+        }
+        if (!problem.empty() || !spindle_.turn()) {
+            return;
+        }
+        out.stops = true;
+        if (settings_->simulated) {
+            out.dwell_s = spindle_.change_s();
+        } else {
+            out.action.spindle = spindle_.turn();
+        }
+    }
+
+    // A probe and a switch that nobody watches would be run into.
+    void require_possible(MoveKind kind) const {
+        if (kind == MoveKind::probe) {
+            const int number = 2 + (item_.probe.away ? 2 : 0) + (item_.probe.required ? 0 : 1);
+            throw InputError(file_, item_.line,
+                             "G38.{}: only the simulated machine probes within a program so far; take it out, "
+                             "and let --probe end a run of its own at the contact (GPIO lines)",
+                             number);
+        }
+        if (kind == MoveKind::turning) {
+            throw InputError(
+                file_, item_.line,
+                "tapping and threads (G33, G33.1, G74, G76, G84): only the simulated machine does this so far, as no "
+                "target measures the turns of its spindle; take them out of the program");
+        }
+        if (kind == MoveKind::home) {
+            const bool grbl = rules_of(settings_->dialect).dollar_lines;
+            throw InputError(file_, item_.line,
+                             "{}: only the simulated machine homes within a program so far; begin the run with "
+                             "--home, and {}",
+                             grbl ? "$H" : "G28", grbl ? "take it out" : "--ignore G28");
+        }
+    }
+
+    [[nodiscard]] std::string in_the_line(const BlockStatus& status) const {
+        const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
+        if (status.length == 0 || at >= line_.text.size()) {
+            return {};
+        }
+        return in_quotes(std::string_view(line_.text).substr(at, status.length)) + ": ";
+    }
 
     const GcodeSettings* settings_;
     std::string file_;
@@ -101,293 +369,6 @@ private:
     std::uint64_t last_line_ = 0;    // the number of the newest one
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
-
-GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines,
-                       ScalarKind scalar, ProblemList* problems)
-    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
-      tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
-                            : std::nullopt),
-      items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
-                           settings.max_feed_mm_s)),
-      interpreter_(items_->interpreter()),
-      flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings, coolant_)) {}
-
-bool GcodeMoves::start(PerAxis<Position>& position) {
-    position = settings_->start;
-    if (settings_->left_out != nullptr) {
-        settings_->left_out->begin();
-    }
-    if (settings_->offsets) {
-        interpreter_.restore(*settings_->offsets);
-    }
-    interpreter_.start(settings_->start);
-    return true;
-}
-
-bool GcodeMoves::wait(Patience patience) {
-    if (asked_) {
-        std::this_thread::sleep_for(patience);
-        return false;
-    }
-    return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
-}
-
-std::string GcodeMoves::in_the_line(const BlockStatus& status) const {
-    const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
-    if (status.length == 0 || at >= line_.text.size()) {
-        return {};
-    }
-    return in_quotes(std::string_view(line_.text).substr(at, status.length)) + ": ";
-}
-
-void GcodeMoves::report(const InputError& error, std::string_view cause) {
-    if (problems_ == nullptr) {
-        throw InputError(error);
-    }
-    problems_->add(error, line_.number, cause);
-}
-
-void GcodeMoves::report_block(const BlockStatus& status, std::string_view text) {
-    const std::string_view rest =
-        text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
-    const std::string_view hint = cut_ == Cut::read ? cut_line : dialect_hint(rest, status.error, settings_->dialect);
-    const std::string sentence =
-        hint.empty() ? std::string(describe(status.error)).append(option_advice(status.error)) : std::string(hint);
-    const bool says_dialect = sentence.find("--dialect") != std::string::npos;
-    const std::string place = in_the_line(status);
-    // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
-    const char letter = rest.empty() ? ' ' : upper_case(rest.front());
-    const bool is_code = letter == 'G' || letter == 'M';
-    report({file_, line_.number, std::uint64_t{status.column},
-            fmt::format("{}{}{}", place, sentence, says_dialect ? std::string_view() : guess())},
-           (is_code || place.empty() ? place : std::string(1, letter)) + sentence);
-}
-
-// A line that is no G-code, or that the user wants to be left out. Macros that nobody speaks of are named.
-bool GcodeMoves::is_left_out() {
-    const std::string_view word = left_out_line(line_.text, *settings_);
-    const std::string_view macro = macro_name(line_.text);
-    if (!word.empty() && settings_->left_out != nullptr) {
-        settings_->left_out->add_line(word);
-    }
-    if (word.empty() && !macro.empty() &&
-        (has_macros(settings_->dialect) || macro.find('_') != std::string_view::npos)) {
-        report({file_, line_.number,
-                fmt::format("{}: it is a macro or an extended command of a printer; --ignore {} leaves its lines out, "
-                            "--ignore unknown all of this kind{}",
-                            in_quotes(macro), macro, guess())},
-               macro);
-        return true;
-    }
-    return !word.empty();
-}
-
-void GcodeMoves::read_line() {
-    if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
-        throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
-    }
-    if (settings_->left_out != nullptr) {
-        settings_->left_out->at_line(line_.number);
-    }
-    if (is_left_out()) {
-        return;
-    }
-    const std::string_view text = without_long_comment(line_.text, BlockInterpreter::longest_line);
-    const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
-    if (!status.ok()) {
-        report_block(status, text);
-        interpreter_.obey_refused();
-    }
-}
-
-void GcodeMoves::end_input() {
-    if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
-        report({file_, last_line_, std::uint64_t{0}, describe(status.error)});
-    }
-}
-
-// One line at a time: whoever waits for a pipe wants to know after each.
-bool GcodeMoves::next(SourceStep& out) {
-    out.kind = StepKind::nothing;
-    if (asked_) {
-        return true;
-    }
-    if (!pending_) {
-        const bool enough = settings_->most_moves > 0 && history_.moves() >= settings_->most_moves;
-        if (interpreter_.has_ended() || enough) {
-            return false;
-        }
-        switch (cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_)) {
-        case ProgramFlow::Step::end:
-            end_input();
-            is_last_ = true;
-            break;
-        case ProgramFlow::Step::nothing: return true;
-        case ProgramFlow::Step::line:
-            last_line_ = line_.number;
-            cut_ = line_.whole ? Cut::no : cut_ == Cut::no ? Cut::ahead : Cut::read;
-            cut_ == Cut::ahead ? end_input() : read_line();
-            break;
-        }
-    }
-    pending_ = items_->next(item_, out.exact_points) == Pull::item;
-    if (pending_) {
-        take(out);
-    }
-    return pending_ || !is_last_;
-}
-
-void GcodeMoves::take(SourceStep& out) {
-    const bool ends = item_.kind == ItemKind::event &&
-                      (item_.event.kind == EventKind::program_end || item_.event.kind == EventKind::offsets_changed);
-    if (cut_ == Cut::read && !ends) {
-        throw InputError(file_, last_line_, cut_line);
-    }
-    out.line = item_.line;
-    out.stops = item_.stops_before;
-    out.dwell_s = 0.0;
-    switch (item_.kind) {
-    case ItemKind::move:
-        out.kind = StepKind::move;
-        take_move(out);
-        break;
-    case ItemKind::dwell:
-        out.kind = StepKind::dwell;
-        out.dwell_s = number_of(item_.dwell_s);
-        break;
-    case ItemKind::event:
-        out.kind = StepKind::event;
-        take_event(out);
-        break;
-    }
-}
-
-void GcodeMoves::take_move(SourceStep& out) const {
-    if (!settings_->simulated) {
-        require_possible(item_.move);
-    }
-    out.move = item_.element;
-    out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
-}
-
-void GcodeMoves::take_event(SourceStep& out) {
-    const ProgramEvent& event = item_.event;
-    if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_); !why.empty()) {
-        throw InputError(file_, item_.line, std::uint64_t{0}, why);
-    }
-    out.action.kind = event.kind;
-    out.action.number = event.number;
-    out.action.value = number_of(event.value);
-    out.action.text.assign(event.text.of(line_.text));
-    out.action.spindle.reset();
-    note_coolant(event.kind);
-    if (ProgramSpindle::is_of(event.kind)) {
-        take_spindle(out, event.kind);
-    } else if (event.kind == EventKind::tool_change || event.kind == EventKind::spindle_orient) {
-        take_spindle(out, EventKind::spindle_stop); // as in LinuxCNC
-    }
-    out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
-                                                           : nullptr;
-    if (event.kind == EventKind::input_wait) {
-        take_input(out);
-    }
-}
-
-void GcodeMoves::note_coolant(EventKind kind) {
-    const bool off = kind == EventKind::coolant_off;
-    coolant_.mist = kind == EventKind::mist_on || (coolant_.mist && !off);
-    coolant_.flood = kind == EventKind::flood_on || (coolant_.flood && !off);
-}
-
-// Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.
-void GcodeMoves::take_input(SourceStep& out) {
-    const ProgramEvent& event = item_.event;
-    if (!settings_->simulated) {
-        out.action.wait = event.wait;
-        asked_ = event.wait;
-        return;
-    }
-    if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
-        if (const std::string why = impossible(event, *settings_); !why.empty()) {
-            report({file_, item_.line, std::uint64_t{0}, why});
-        }
-    }
-    const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
-    out.dwell_s = met ? 0.0 : number_of(event.value);
-    interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
-}
-
-void GcodeMoves::answer(int value) {
-    interpreter_.report_input(Decimal::from_integer(value));
-    asked_.reset();
-}
-
-// A real spindle is waited for at standstill; the simulated one takes its time.
-void GcodeMoves::take_spindle(SourceStep& out, EventKind kind) {
-    if (settings_->spindle == nullptr) {
-        return;
-    }
-    const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
-    if (!problem.empty()) {
-        report(InputError(file_, item_.line, std::uint64_t{0}, problem));
-    }
-    if (!problem.empty() || !spindle_.turn()) {
-        return;
-    }
-    out.stops = true;
-    if (settings_->simulated) {
-        out.dwell_s = spindle_.change_s();
-    } else {
-        out.action.spindle = spindle_.turn();
-    }
-}
-
-// A probe and a switch that nobody watches would be run into.
-void GcodeMoves::require_possible(MoveKind kind) const {
-    if (kind == MoveKind::probe) {
-        const int number = 2 + (item_.probe.away ? 2 : 0) + (item_.probe.required ? 0 : 1);
-        throw InputError(file_, item_.line, std::uint64_t{0},
-                         fmt::format("G38.{}: only the simulated machine probes within a program so far; take it out, "
-                                     "and let --probe end a run of its own at the contact (GPIO lines)",
-                                     number));
-    }
-    if (kind == MoveKind::turning) {
-        throw InputError(
-            file_, item_.line, std::uint64_t{0},
-            "tapping and threads (G33, G33.1, G74, G76, G84): only the simulated machine does this so far, as no "
-            "target measures the turns of its spindle; take them out of the program");
-    }
-    if (kind == MoveKind::home) {
-        const bool grbl = rules_of(settings_->dialect).dollar_lines;
-        throw InputError(file_, item_.line, std::uint64_t{0},
-                         fmt::format("{}: only the simulated machine homes within a program so far; begin the run with "
-                                     "--home, and {}",
-                                     grbl ? "$H" : "G28", grbl ? "take it out" : "--ignore G28"));
-    }
-}
-
-UnreadLines GcodeMoves::unread() {
-    UnreadLines out{line_.number, 0};
-    while (interpreter_.has_ended() && flow_.next_unread(line_)) {
-        TextCursor cursor(line_.text);
-        const char first = cursor.peek();
-        out.lines += first != '\0' && first != '(' && first != ';' && first != '%' ? 1 : 0;
-    }
-    return out;
-}
-
-std::string GcodeMoves::name_of_move(std::uint64_t /*move*/, std::uint64_t line) const {
-    return fmt::format("line {}", line);
-}
-
-std::string GcodeMoves::name_of_row(std::uint32_t row) const {
-    const std::uint64_t line = history_.line_of(row);
-    return line > 0 ? fmt::format("line {}", line) : fmt::format("move {}", row + std::uint64_t{1});
-}
-
-InputError GcodeMoves::refusal(const SourceStep& step, std::string_view text) const {
-    return {file_, step.line, text};
-}
 
 } // namespace
 

@@ -17,8 +17,7 @@ void LineHistory::add(std::uint64_t line) {
 }
 
 std::uint64_t LineHistory::line_of(std::uint64_t move) const noexcept {
-    const auto behind = std::upper_bound(runs_.begin(), runs_.end(), move,
-                                         [](std::uint64_t place, const Run& run) { return place < run.first_move; });
+    const auto behind = std::ranges::upper_bound(runs_, move, {}, &Run::first_move);
     return behind == runs_.begin() || move >= moves_ ? 0 : std::prev(behind)->line;
 }
 

@@ -6,7 +6,6 @@
 #include "splinefeed/s0_program/program_errors.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -99,7 +98,7 @@ void ProgramFlow::define(const FlowBlock::Place& place, const SourceLine& line) 
     const auto known = subs_.find(place.word.label);
     if (known == subs_.end() || known->second.source != code.number() || known->second.line != place.begin) {
         if (kept_ + (place.end - place.begin) >= most_lines) {
-            fail(line, 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
+            fail(line, 0, "subprograms and loops have more than {} lines", most_lines);
         }
         auto part = std::make_shared<const FlowBlock>(code.part(place.begin, ++blocks_));
         keep(place.word.label, {std::move(part), code.number(), place.begin});
@@ -292,7 +291,7 @@ ProgramFlow::Step ProgramFlow::end_of_block() {
 
 void ProgramFlow::count_word(const SourceLine& line) {
     if (++words_ > most_words) {
-        fail(line, 0, fmt::format("the program has executed {} O words; does it ever end?", most_words));
+        fail(line, 0, "the program has executed {} O words; does it ever end?", most_words);
     }
 }
 

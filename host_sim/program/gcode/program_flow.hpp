@@ -147,6 +147,11 @@ private:
     [[nodiscard]] bool condition(const FlowWord& word, const SourceLine& line);
     void require_end(const SourceLine& line, std::size_t at) const;
     [[noreturn]] void fail(const SourceLine& line, std::size_t at, std::string_view text) const;
+    template <class First, class... Rest>
+    [[noreturn]] void fail(const SourceLine& line, std::size_t at, fmt::format_string<First, Rest...> text,
+                           First&& first, Rest&&... rest) const {
+        fail(line, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+    }
 
     SourceLines* lines_;
     std::string file_;

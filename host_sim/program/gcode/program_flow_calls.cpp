@@ -3,7 +3,6 @@
 #include "host_sim/program/gcode/program_flow.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -14,17 +13,16 @@ void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
         return;
     }
     if (sub == nullptr) {
-        fail(line, word.label_at,
-             fmt::format("there is no subprogram o{} in this file; those of other files are not read", label));
+        fail(line, word.label_at, "there is no subprogram o{} in this file; those of other files are not read", label);
     }
     if (frames_.size() >= deepest) {
-        fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
+        fail(line, word.label_at, "calls are nested more than {} deep", deepest);
     }
     std::vector<Decimal> arguments;
     std::size_t at = word.rest;
     while (at < line.text.size() && line.text[at] == '[') {
         if (arguments.size() == most_arguments) {
-            fail(line, at, fmt::format("a call has at most {} arguments", most_arguments));
+            fail(line, at, "a call has at most {} arguments", most_arguments);
         }
         arguments.push_back(value(line.text, at, line));
     }
@@ -82,11 +80,11 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
         return;
     }
     if (code == nullptr) {
-        fail(line, word.label_at,
-             fmt::format("there is no subprogram O{} behind this line; those of other files are not read", number));
+        fail(line, word.label_at, "there is no subprogram O{} behind this line; those of other files are not read",
+             number);
     }
     if (frames_.size() >= deepest) {
-        fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
+        fail(line, word.label_at, "calls are nested more than {} deep", deepest);
     }
     if (times > 0) {
         frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
@@ -129,7 +127,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
         }
         const std::size_t end = end_ahead(i, *word);
         if (kept_ + (end - i) >= most_lines) {
-            fail(ahead_[i], 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
+            fail(ahead_[i], 0, "subprograms and loops have more than {} lines", most_lines);
         }
         called_.emplace_back(i, end);
         std::shared_ptr<const FlowBlock> block = block_ahead(i, end);
@@ -199,9 +197,8 @@ bool ProgramFlow::wait_for_input(const FlowWord& word, const SourceLine& line) {
 ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
     if (lines_->next(out)) {
         if (ahead_.size() >= most_lines) {
-            throw InputError(
-                file_, waits_->line.number,
-                fmt::format("more than {} lines follow this call, whose subprogram is looked for in them", most_lines));
+            throw InputError(file_, waits_->line.number,
+                             "more than {} lines follow this call, whose subprogram is looked for in them", most_lines);
         }
         ahead_.push_back(out);
         return Step::nothing;
@@ -229,7 +226,7 @@ ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out
 
 bool ProgramFlow::next_unread(SourceLine& out) {
     for (std::optional<FlowWord> word; next_line(out, word);) {
-        const bool called = ended_ && std::any_of(called_.begin(), called_.end(), [this](const auto& part) {
+        const bool called = ended_ && std::ranges::any_of(called_, [this](const auto& part) {
                                 return ahead_at_ > part.first && ahead_at_ <= part.second;
                             });
         if (!called) {

@@ -2,8 +2,6 @@
 // How ProgramFlow takes the blocks of its input.
 #include "host_sim/program/gcode/program_flow.hpp"
 
-#include <fmt/format.h>
-
 namespace splinefeed::host {
 
 // A block of the input is read to its end before it runs: loops go back, and conditions go forward.
@@ -41,17 +39,17 @@ void ProgramFlow::begin_stray(const FlowWord& word, const SourceLine& line) {
         return;
     }
     if (word.kind == FlowKind::break_ || word.kind == FlowKind::continue_) {
-        fail(line, word.label_at, fmt::format("there is no loop o{} around this line", word.label));
+        fail(line, word.label_at, "there is no loop o{} around this line", word.label);
     }
     if (word.kind == FlowKind::return_) {
         fail(line, word.label_at, "return stands in a subprogram");
     }
-    fail(line, word.label_at, fmt::format("o{} has no begin", word.label));
+    fail(line, word.label_at, "o{} has no begin", word.label);
 }
 
 ProgramFlow::Step ProgramFlow::collect(const SourceLine& line, const std::optional<FlowWord>& known) {
     if (block_->size() + kept_ >= most_lines) {
-        throw InputError(file_, line.number, fmt::format("subprograms and loops have more than {} lines", most_lines));
+        throw InputError(file_, line.number, "subprograms and loops have more than {} lines", most_lines);
     }
     if (!known && !has_word(line.text)) {
         block_->add(line);
