@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// For which scalars the core is compiled: for all three, but those that the build leaves out (SPLINEFEED_SCALARS). A
-// firmware that computes in one of them compiles in half the time.
+// For which scalars the core is compiled: for all three, but those that the build leaves out (SPLINEFEED_SCALARS): a
+// firmware compiles what it computes in.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"

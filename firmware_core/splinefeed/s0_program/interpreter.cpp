@@ -42,7 +42,8 @@ S length_mm(Decimal from, Decimal to) noexcept {
     return absolute(distance<S>(to_position(from), to_position(to), 0));
 }
 
-bool with_motion(EventKind kind) noexcept {
+// Not used where the largest degree is 3.
+[[maybe_unused]] bool with_motion(EventKind kind) noexcept {
     return kind == EventKind::output_on_with_motion || kind == EventKind::output_off_with_motion ||
            kind == EventKind::analog_output_with_motion;
 }

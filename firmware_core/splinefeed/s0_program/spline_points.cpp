@@ -11,7 +11,8 @@ namespace {
 constexpr std::int64_t near_raw = (std::int64_t{1} << Position::fraction_bits) / 10000; // as WaypointCurve merges
 constexpr double longest_polygon = 0x1p28;                                              // that a path takes
 
-bool is_near(const PerAxis<Position>& from, const PerAxis<Position>& to, int axes) noexcept {
+// Not used where the largest degree is 3.
+[[maybe_unused]] bool is_near(const PerAxis<Position>& from, const PerAxis<Position>& to, int axes) noexcept {
     for (const unsigned k : indices(axes)) {
         const std::int64_t way = to[k].raw - from[k].raw;
         if (way >= near_raw || way <= -near_raw) {
