@@ -12,6 +12,7 @@
 
 namespace splinefeed::host {
 
+/// What `splinefeed link` says of a target.
 struct LinkReport {
     std::string text;    ///< lines for standard output
     std::string trouble; ///< why the machine cannot run as it stands, and the way out; empty: it can

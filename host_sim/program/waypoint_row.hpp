@@ -32,6 +32,7 @@ struct WaypointRow {
 /// Of the way from one waypoint to the next. @param name  of the axis
 [[nodiscard]] std::string move_refusal(std::string_view name, double from_mm, double to_mm);
 
+/// A source of waypoints, in order.
 using WaypointRows = RowSource<WaypointRow>;
 
 } // namespace splinefeed::host

@@ -55,3 +55,16 @@ TEST_CASE("axis moves: each axis goes home at its own speed, exactly to 0", "[dr
     CHECK(reference.counts[1] == 0.0);
     CHECK(reference.rests());
 }
+
+TEST_CASE("axis moves: a stop in the middle of homing begins anew", "[drive][axis_moves]") {
+    const auto axes = two_axes();
+    PvtReference reference{.counts = {50.0, 0.0}, .counts_s = {}};
+    AxisMoves moves;
+    moves.home(reference, axes);
+    CHECK_FALSE(moves.pass(0.3, reference));
+    moves.stop(reference, axes);
+    CHECK_FALSE(moves.pass(0.05, reference));
+    CHECK(reference.counts_s[0] == Approx(-50.0));
+    CHECK(moves.pass(0.06, reference));
+    CHECK(reference.counts[0] == Approx(25.0 - 5.0));
+}

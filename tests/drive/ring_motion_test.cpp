@@ -34,4 +34,10 @@ TEST_CASE("ring motion: without a place to stand it slows down to the end of the
     CHECK(outcome == Outcome::held);
     CHECK(static_cast<double>(now_us) == Approx(1'210'000.0).margin(130.0));
     CHECK(reference.counts[0] == 25.0);
+    motion.begin(7, {});
+    REQUIRE(motion.ring().take(7, ring) == PvtRefusal::none);
+    motion.start();
+    CHECK(motion.pass(now_us, 0.1, reference) == Outcome::moves);
+    motion.ring().begin(8, {}); // taken away while it moves
+    CHECK(motion.pass(now_us + 100'000, 0.001, reference) == Outcome::underflow);
 }

@@ -59,7 +59,7 @@ STEERING = ("SIGTSTP", "SIGUSR1", "SIGPIPE")
 SITUATIONS = ["plain", "slow machine file", "spindle", "stalled input", "full pipe", "frozen drive", "dead drive"]
 SPINDLE = "[spindle]\nmax_rpm = 24000\nat_speed_timeout_s = 10\nvfd = \"{vfd}?profile=vfd-delta-ms300\"\n"
 EXIT_S = 12.0
-START_S = 0.07  # a hold so long before a start waits for it
+START_S = 0.06  # a hold so near to a start waits for it
 MEASURED_S = 0.004  # the record has a row a millisecond, and an exit is looked for as often
 
 
@@ -223,9 +223,10 @@ class Run:
         if status < 0:  # the signal came before the program had begun to take signals
             self.check(still, "killed, and something was moved")
             return
-        limit_s = stated["twice" if self.signals.endswith("twice") else "once"]
-        if -0.03 < begun_s - asked < START_S and "about a start" in stated:
-            limit_s = max(limit_s, stated["about a start"])
+        how = "twice" if self.signals.endswith("twice") else "once"
+        if how == "once" and abs(begun_s - asked) < START_S + MEASURED_S and "about a start" in stated:
+            how = "about a start"
+        limit_s = stated[how]
         if self.standstill_s > limit_s:
             self.problems.append(OffTime.too_long(self.standstill_s, limit_s, "to standstill"))
         self.check(status == 1, f"exit status {status}")

@@ -37,6 +37,7 @@ TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as lon
     CHECK(run(plant, longer, {}) == PortPhase::idle);
     CHECK(plant.port->resumes() == 0);
     INFO(1e6 * plant.off_path_counts / longer.fastest_counts_s << " us of the largest speed");
+    CHECK(plant.off_path_counts > 0.0); // it is measured
     CHECK(plant.off_path_counts < longer.fastest_counts_s * 700e-6);
     plant.port->close();
 }

@@ -189,7 +189,10 @@ TEST_CASE("Set-point port, virtual: drives are switched off where a set-up fails
     SetpointPlant plant({});
     plant.open();
     plant.drives[2]->axis().trip(host::AxisFault::following_error);
-    CHECK(plant.port->prepare(motion.segments.front()).what.find("it is in fault, code 34321;") == 0);
+    const PortFailure failure = plant.port->prepare(motion.segments.front());
+    CHECK(failure.what.find("it is in fault, code 34321;") == 0);
+    CHECK(failure.remedy == Remedy::reset);
+    CHECK(failure.drive == 2);
     CHECK(plant.drives[0]->axis().power() == host::AxisPower::on);
     plant.port->power_off();
     for (std::size_t i = 0; i < 3; ++i) {

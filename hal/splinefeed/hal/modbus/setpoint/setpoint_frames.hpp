@@ -33,8 +33,7 @@ public:
     RawValue set(FieldRole role, std::int64_t physical_q16) noexcept;
     /// A physical value rounded as in the register of that role; unchanged if the profile has no such field.
     [[nodiscard]] double rounded(FieldRole role, double physical) const noexcept;
-    /// Records a value that was written by other means (enable, mode), because commands change single bits of it.
-    void set_last(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
+    /// The raw value that was set or written last: commands change single bits of it.
     [[nodiscard]] std::int64_t last(FieldIndex field) const noexcept { return last_[field]; }
     /// Call when frames were lost: what the drive has of their values is unknown, so the next build() has all of them.
     void forget() noexcept { std::fill(known_.begin(), known_.end(), false); }
