@@ -118,7 +118,7 @@ void take_start(Job& job, const std::optional<std::string>& start) {
         return;
     }
     job.run.options.start = static_cast<StartWay>(require_word("--start", *start, {"check", "move", "here"}));
-    if (job.run.target == "sim") {
+    if (!target_kind(job.run.target).is_real) {
         throw UsageError("--start is for machines that stand somewhere, and the simulated one stands where its program "
                          "begins; name your machine with --target");
     }
@@ -194,8 +194,8 @@ constexpr std::array<std::string_view, 10> commands{"run",   "plan", "check",   
 // What run, plan, check and curve have in common.
 void take_path(Job& job, const CLI::App& command, const Typed& typed) {
     job.run.motion.enforce = job.command == Command::run;
-    check_target(job.run.target);
-    if (job.run.target == "sim" && job.run.options.home) {
+    const bool is_real = target_kind(job.run.target).is_real;
+    if (!is_real && job.run.options.home) {
         throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
                          "--position says where it stands; name your machine with --target");
     }
@@ -203,7 +203,7 @@ void take_path(Job& job, const CLI::App& command, const Typed& typed) {
         throw UsageError(
             "--reset is for drives on Modbus; reset others by their own means, or name yours with --target");
     }
-    if (job.run.target == "sim" && job.run.options.probe) {
+    if (!is_real && job.run.options.probe) {
         throw UsageError("--probe is for machines with switches, and the simulated one has none; name yours with "
                          "--target");
     }

@@ -113,7 +113,7 @@ void add_machine(CLI::App& app, std::optional<std::string>& machine, std::vector
 }
 
 void add_target(CLI::App& app, std::string& target) {
-    app.add_option("--target", target, "sim: the simulated machine in this process (default); " + target_help());
+    app.add_option("--target", target, target_help(false));
 }
 
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
@@ -205,7 +205,7 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
 }
 
 void add_link_options(CLI::App& app, LinkArguments& arguments, Typed& typed) {
-    app.add_option("--target", arguments.target, target_help());
+    app.add_option("--target", arguments.target, target_help(true));
     add_machine(app, typed.machine, arguments.settings, "");
     app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
 }

@@ -24,7 +24,7 @@ double measuring_time(const std::string& text) {
 } // namespace
 
 int report_link(const LinkArguments& arguments) {
-    if (arguments.target.empty() || arguments.target == "sim") {
+    if (arguments.target.empty() || !target_kind(arguments.target).is_real) {
         throw UsageError("there is nothing to test; name the drives with --target modbus-tcp://HOST:PORT, "
                          "modbus-rtu://DEVICE, gpio:///dev/gpiochip0?map=FILE.toml, or modbus and -m MACHINE.toml");
     }

@@ -50,6 +50,8 @@ public:
     /// Carries out what an event asks for, or begins to wait for its input, in place of another one; of one that there
     /// is not: it waits for none any more. @pre the machine has what it is about
     void act(const ProgramAction& action);
+    /// Whether M66 has inputs to wait for.
+    [[nodiscard]] bool reads_inputs() const noexcept { return !inputs_.empty(); }
     /// Called each millisecond.
     void update();
     /// Whether the last order is carried out: the spindle turns as it was told, the input has answered. The motion

@@ -13,12 +13,13 @@
 namespace splinefeed::host {
 
 // Each is in a source of its own. A new one adds its name here, and in the table.
+extern const TargetKind sim_kind;
 extern const TargetKind modbus_kind;
 extern const TargetKind gpio_kind; // of a build without libgpiod: one that says so
 
 namespace {
 
-const std::array kinds{&modbus_kind, &gpio_kind};
+const std::array kinds{&sim_kind, &modbus_kind, &gpio_kind};
 
 /// The target that a user means who names only its device or host; empty: unknown.
 std::string meant_target(const std::string& target) {
@@ -36,17 +37,19 @@ std::string meant_target(const std::string& target) {
 
 } // namespace
 
-std::string target_help() {
+std::string target_help(bool real) {
     std::string text;
     for (const TargetKind* const kind : kinds) {
-        text += text.empty() ? "" : "; ";
-        text += kind->help;
+        if (kind->is_real || !real) {
+            text += text.empty() ? "" : "; ";
+            text += kind->help;
+        }
     }
     return text;
 }
 
 const TargetKind& target_kind(const std::string& target) {
-    std::vector<std::string_view> names{"sim"};
+    std::vector<std::string_view> names;
     for (const TargetKind* const kind : kinds) {
         if (kind->is(target)) {
             try {
@@ -65,12 +68,6 @@ const TargetKind& target_kind(const std::string& target) {
                                                  in_quotes(target), fmt::join(names, ", "), last)
                                    : fmt::format("--target {}: it does not say what is there; did you mean {}?",
                                                  in_quotes(target), meant));
-}
-
-void check_target(const std::string& target) {
-    if (target != "sim") {
-        static_cast<void>(target_kind(target));
-    }
 }
 
 } // namespace splinefeed::host

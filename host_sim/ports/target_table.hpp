@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// target_table: the kinds of targets that --target may name, beside the simulated machine. A new one is a row in
+// target_table: the kinds of targets that --target may name, the simulated machine first. A new one is a row in
 // target_table.cpp.
 #pragma once
 
@@ -21,6 +21,7 @@ struct LinkReport {
 struct TargetKind {
     std::string_view names; ///< what a user may write, and the page that says more
     std::string_view help;  ///< what --help says
+    bool is_real = true;    ///< false: nothing but numbers moves
     /// Whether a target is meant to be one of these.
     bool (*is)(const std::string& target);
     /// Throws AddressError if the address is wrong, and UsageError if this build does not support it.
@@ -28,19 +29,16 @@ struct TargetKind {
     /// Connects to the drives. `machine` must outlive the target. Throws UsageError, InputError, TargetError.
     std::unique_ptr<RunTarget> (*make)(const std::string& target, const MachineDescription& machine,
                                        const RunOptions& options);
-    /// What `splinefeed link` says. @param any_machine  the user named no machine. Throws like make().
+    /// What `splinefeed link` says; null: there is nothing to measure.
+    /// @param any_machine  the user named no machine. Throws like make().
     LinkReport (*report)(const std::string& target, const MachineDescription& machine, bool any_machine,
                          double seconds);
 };
 
-/// What --help says of all kinds.
-[[nodiscard]] std::string target_help();
+/// What --help says of all kinds, or of all that are real.
+[[nodiscard]] std::string target_help(bool real);
 
 /// The kind of a target whose address is right. Throws UsageError, with the option, if there is none.
-/// @pre not "sim"
 [[nodiscard]] const TargetKind& target_kind(const std::string& target);
-
-/// Checks that --target can have this value: sim, or a target of some kind. Throws UsageError if not.
-void check_target(const std::string& target);
 
 } // namespace splinefeed::host

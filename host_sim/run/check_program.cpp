@@ -139,7 +139,8 @@ int check_program(const RunArguments& arguments) {
         motion_arguments.record = &page.emplace(arguments.outputs.report, of.machine, figures.segment_ticks).record();
     }
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
-    Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs);
+    LiveMachine none;
+    Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs, none);
     const std::string stopped = motion.run(survey.report().feeds().moves + survey.report().rapids().moves);
     const Summary summary = motion.summary();
     if (page) {

@@ -18,16 +18,16 @@ constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the targ
 } // namespace
 
 Motion::Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
-               PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
+               PathInput& input, const PathLimits& path_limits, Outputs& outputs, LiveMachine& live)
     : quiet_(arguments.quiet), progress_alone_(arguments.progress), enforce_(arguments.enforce),
       measures_(arguments.measures), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
       state_(arguments.state), start_(arguments.start), report_(arguments.report), record_(arguments.record),
-      kept_(arguments.kept), target_(target), deviation_(description.settings, input.tolerances().joint_mm,
+      kept_(arguments.kept), live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
                                                          input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
-      share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal, arguments.record),
+      share_(description.settings), steps_(figures, !arguments.quiet, live, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),
-      work_(measures_ && target == nullptr && arguments.record == nullptr && input.within_tolerance()),
+      work_(measures_ && !live.is_real() && arguments.record == nullptr && input.within_tolerance()),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
                             .error = &error_,
@@ -53,8 +53,8 @@ void Motion::execute_all() {
     FeedSegment segment;
     for (;;) {
         operate();
-        obey_target();
-        if (target_ != nullptr && target_->over()) {
+        obey_machine();
+        if (live_->over()) {
             break;
         }
         if (paused_ && feeder_.wait_for_row(Clock::duration::zero())) {
@@ -105,22 +105,22 @@ void Motion::show_progress() {
     if (!progress_ || !progress_->due()) {
         return;
     }
-    if (target_ == nullptr) {
+    if (!live_->is_real()) {
         progress_->show({line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s()});
         return;
     }
-    const Supervision::Reached reached = target_->reached();
+    const LiveMachine::Reached reached = live_->reached();
     std::string place;
-    for (const RunTarget::AxisPlace& at : reached.places) {
+    for (const RunTarget::AxisPlace& at : live_->places()) {
         place += at.known() ? fmt::format(" {}={:.3f}", description_->axis_name[at.axis], *at.known()) : std::string();
     }
     const double segment_s = figures_->segment_ticks / (ticks_per_us * 1e6);
-    progress_->show({reached.moves, reached.line, static_cast<double>(target_->executed()) * segment_s, true, place});
+    progress_->show({reached.moves, reached.line, static_cast<double>(live_->executed()) * segment_s, true, place});
 }
 
 // The input pauses: a machine that moves cannot wait, one that stands does for a while.
 bool Motion::late() const {
-    return paused_ && target_->room() &&
+    return paused_ && live_->has_room() &&
            (moves_ || feeder_.awaits_answer() || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
 }
 
@@ -143,10 +143,10 @@ bool Motion::wait() {
 }
 
 bool Motion::pull(FeedSegment& segment) {
-    const Clock::time_point start = target_ != nullptr ? Clock::now() : Clock::time_point{};
+    const Clock::time_point start = live_->is_real() ? Clock::now() : Clock::time_point{};
     late_ = late();
     const bool item = path_->next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
-    planning_ += target_ != nullptr ? Clock::now() - start : Clock::duration{};
+    planning_ += live_->is_real() ? Clock::now() - start : Clock::duration{};
     if (item && segments_ == 0 && path_->failure()) { // nothing has moved yet
         std::rethrow_exception(path_->failure());
     }
@@ -170,15 +170,12 @@ void Motion::operate() {
 }
 
 // Switches and the user's signals, in real time.
-void Motion::obey_target() {
-    if (target_ == nullptr) {
-        return;
-    }
-    if (!held_by_target_ && target_->hold_asked()) {
+void Motion::obey_machine() {
+    if (!held_by_target_ && live_->hold_asked()) {
         held_by_target_ = true;
         path_->hold();
     }
-    const UserSteering steering = target_->take_steering();
+    const UserSteering steering = live_->take_steering();
     switch (steering) {
     case UserSteering::none: break;
     case UserSteering::hold:
@@ -201,7 +198,7 @@ void Motion::obey_target() {
         }
         break;
     }
-    suspend_.follow(moves_, target_->submitted(), target_->executed(), target_->spindle_stands());
+    suspend_.follow(moves_, live_->submitted(), live_->executed(), live_->spindle_stands());
 }
 
 // Time passes while the machine is held; false where nothing will ever move it.
@@ -307,7 +304,7 @@ bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerA
     }
     FeedSegment segment;
     for (;;) {
-        obey_target();
+        obey_machine();
         if (held_by_target_ || held_by_user_) {
             way_->hold();
         } else {
@@ -354,8 +351,8 @@ bool Motion::execute(FeedSegment& segment) {
     if (kept_ != nullptr) {
         kept_->add(segment, input_->gcode() != nullptr ? line_ : passed_, share_.binding_limit());
     }
-    if (target_ != nullptr && !target_->submit(segment, line_, passed_)) {
-        stopped_ = target_->ending();
+    if (!live_->submit(segment, line_, passed_)) {
+        stopped_ = live_->ending();
         return false;
     }
     ++segments_;

@@ -4,6 +4,7 @@
 
 #include "host_sim/analysis/exact_stop_time.hpp"
 #include "host_sim/analysis/program_report.hpp"
+#include "host_sim/live/live_machine.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/progress.hpp"
 #include "host_sim/output/summary.hpp"
@@ -15,7 +16,6 @@
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/run_start.hpp"
-#include "host_sim/run/supervision.hpp"
 #include "host_sim/run/user_pause.hpp"
 
 #include <chrono>
@@ -56,7 +56,7 @@ public:
 
     /// All arguments must outlive it.
     Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
-           PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target = nullptr);
+           PathInput& input, const PathLimits& path_limits, Outputs& outputs, LiveMachine& live);
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] bool late() const;
     [[nodiscard]] bool wait();
     void operate();
-    void obey_target();
+    void obey_machine();
     bool stand();
     [[nodiscard]] bool dwell(FeedSegment& segment);
     bool execute(FeedSegment& segment);
@@ -118,7 +118,7 @@ private:
     ProgramReport* report_;
     MotionRecord* record_;
     KeptMotion* kept_;
-    Supervision* target_; // null: only the simulated machine
+    LiveMachine* live_;
     WaypointError error_;
     PathDeviation deviation_;
     ExactStopTime exact_stop_;

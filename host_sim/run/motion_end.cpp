@@ -33,15 +33,15 @@ std::string Motion::run(std::optional<std::uint64_t> waypoints) {
             describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
                                                                                             : std::string());
     }
-    const bool executed = target_ == nullptr || come_to_rest(broken);
+    const bool executed = !live_->is_real() || come_to_rest(broken);
     progress_.reset();
     require_end();
     stopped_ = broken.empty() ? stopped_ : broken;
     if (executed) {
         keep_state();
-        return stopped_.empty() ? stopped_ : stopped_ + (target_ != nullptr ? target_->where() : where());
+        return stopped_.empty() ? stopped_ : stopped_ + (live_->is_real() ? live_->where() : where());
     }
-    stopped_ = target_->ending();
+    stopped_ = live_->ending();
     return stopped_;
 }
 
@@ -60,18 +60,18 @@ bool Motion::come_to_rest(const std::string& broken) {
     }
     FeedSegment segment;
     while (held && moves_ && next(segment) && machine_.submit(segment) &&
-           machine_.poll().phase != hal::PortPhase::fault && target_->submit(segment, line_, passed_)) {
+           machine_.poll().phase != hal::PortPhase::fault && live_->submit(segment, line_, passed_)) {
         ++segments_;
         moves_ = !segment.ends_at_rest();
     }
     if (!broken.empty()) {
-        target_->stop(broken);
+        live_->stop(broken);
     }
-    for (target_->complete(); target_->runs();) {
+    for (live_->rest(); live_->runs();) {
         show_progress();
         std::this_thread::sleep_for(look_slice);
     }
-    return target_->finish();
+    return live_->finish().empty();
 }
 
 // What went wrong beside the motion. Before the first move it is thrown; after it, it is why the machine stopped.
@@ -103,11 +103,11 @@ void Motion::require_end() {
 
 // Nobody would know where the drives are, did the message not say it.
 void Motion::fail() const {
-    if (target_ == nullptr || segments_ == 0) {
+    if (!live_->is_real() || segments_ == 0) {
         std::rethrow_exception(failure_);
     }
-    const std::string& ending = target_->ending();
-    const std::string rest = ending.empty() ? target_->where() : "; " + ending;
+    const std::string& ending = live_->ending();
+    const std::string rest = ending.empty() ? live_->where() : "; " + ending;
     try {
         std::rethrow_exception(failure_);
     } catch (const OutputError& error) {
@@ -126,7 +126,7 @@ void Motion::keep_state() {
     if (steps_.offsets() != nullptr) {
         state_->offsets(*steps_.offsets());
     }
-    if (segments_ > 0 && (target_ == nullptr || target_->over())) {
+    if (segments_ > 0 && (!live_->is_real() || live_->over())) {
         state_->stands(machine_.position_mm());
     }
 }

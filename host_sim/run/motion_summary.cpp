@@ -73,7 +73,7 @@ Summary Motion::summary() const {
         summary.tolerance = tolerance_summary();
     }
     summary.program = steps_.summary();
-    summary.program.line = target_ != nullptr && target_->line() > 0 ? target_->line() : line_;
+    summary.program.line = live_->reached().line > 0 ? live_->reached().line : line_;
     summary.program.left_out = input_->left_out();
     summary.program.dialect = input_->dialect_choice();
     summary.limit_share = share_.shares();
@@ -89,9 +89,7 @@ Summary Motion::summary() const {
     const double duration_s = figures_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm =
         duration_s * duration_s / 6.0 * std::sqrt(axis_totals(within_jerk(description_->settings)).acceleration_sq);
-    if (target_ != nullptr) {
-        target_->describe(summary);
-    }
+    live_->describe(summary);
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) == 0) {
         summary.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;

@@ -80,11 +80,11 @@ void ProgramSteps::happen(double time_s) {
         return;
     }
     const ProgramAction& action = step.action;
-    if (orders_ != nullptr && action.kind == EventKind::input_wait) {
-        answer_ = orders_->input();
+    if (live_->is_real() && action.kind == EventKind::input_wait) {
+        answer_ = live_->input();
     }
-    if (orders_ != nullptr && !action.spindle && ProgramOutputs::is_of(action)) {
-        orders_->order(action, false);
+    if (!action.spindle && ProgramOutputs::is_of(action)) {
+        live_->order(action, false);
     }
     if (step.offsets != nullptr) {
         offsets_ = step.offsets;
@@ -120,15 +120,15 @@ void ProgramSteps::begin(const FeedSegment& segment, double time_s) {
 bool ProgramSteps::waits_for_order(const PendingStep& step) {
     const bool asks = host::waits_for_user(step.action.kind);
     const bool reads = step.action.kind == EventKind::input_wait;
-    if (orders_ == nullptr || !(step.action.spindle || asks || reads)) {
+    if (!live_->is_real() || !(step.action.spindle || asks || reads)) {
         return false;
     }
     if (!ordered_) {
-        orders_->order(step.action, true);
+        live_->order(step.action, true);
         ordered_ = true;
         asked_ = Asked::no;
     }
-    return !orders_->carried_out() || (asks && waits_for_user(step));
+    return !live_->carried_out() || (asks && waits_for_user(step));
 }
 
 // Nobody shall reach for a tool that turns.
@@ -140,7 +140,7 @@ bool ProgramSteps::waits_for_user(const PendingStep& step) {
                                                 action.kind == EventKind::pause            ? "M0"
                                                 : action.kind == EventKind::optional_pause ? "M1"
                                                                                            : "M60");
-    if (asked_ != Asked::user && tool && !orders_->spindle_stands()) {
+    if (asked_ != Asked::user && tool && !live_->spindle_stands()) {
         if (asked_ == Asked::no) {
             tell("splinefeed: {}: wait until the spindle stands\n", what);
             asked_ = Asked::spindle;

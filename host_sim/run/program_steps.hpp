@@ -8,7 +8,7 @@
 #include "host_sim/planning/path_feeder.hpp"
 #include "host_sim/program/move_source.hpp"
 #include "host_sim/report/motion_record.hpp"
-#include "host_sim/run/program_orders.hpp"
+#include "host_sim/live/live_machine.hpp"
 #include "host_sim/run/user_pause.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
@@ -62,12 +62,12 @@ class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
     /// `figures` must outlive it.
-    /// @param orders  gets what is for real outputs; null: there are none, and nobody waits for a user
+    /// @param live  gets what is for real outputs; of a plan nobody waits for a user
     /// @param terminal  of the user, as in UserPause
     /// @param record  gets the events; null: nobody does
-    ProgramSteps(const PlanFigures& figures, bool tells, ProgramOrders* orders = nullptr, int terminal = -1,
+    ProgramSteps(const PlanFigures& figures, bool tells, LiveMachine& live, int terminal = -1,
                  MotionRecord* record = nullptr)
-        : figures_(&figures), orders_(orders), record_(record), pause_(terminal), tells_(tells) {}
+        : figures_(&figures), live_(&live), record_(record), pause_(terminal), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const PathFeeder::Pushed& pushed);
@@ -107,7 +107,7 @@ private:
     [[nodiscard]] bool waits_for_user(const PendingStep& step);
 
     const PlanFigures* figures_;
-    ProgramOrders* orders_;
+    LiveMachine* live_;
     MotionRecord* record_;
     std::optional<int> answer_;
     bool ordered_ = false; // the machine stands for the first step's order

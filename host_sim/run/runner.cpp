@@ -12,13 +12,13 @@
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/target_table.hpp"
 #include "host_sim/run/motion.hpp"
-#include "host_sim/run/output_table.hpp"
+#include "host_sim/live/live_machine.hpp"
+#include "host_sim/live/output_table.hpp"
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_look.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
-#include "host_sim/run/supervision.hpp"
-#include "host_sim/run/target_fit.hpp"
+#include "host_sim/live/target_fit.hpp"
 #include "host_sim/run/what_would_help.hpp"
 
 #include <algorithm>
@@ -97,10 +97,9 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
     return start;
 }
 
-/// A target with what goes with it; the simulated machine has none.
+/// A real target, and where its machine stands.
 struct Connected {
     std::unique_ptr<RunTarget, DeleteInTime> target{};
-    std::unique_ptr<ProgramOutputs, DeleteInTime> outputs{};
     std::optional<RunStart> start{};
 };
 
@@ -112,13 +111,12 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
     out.target.reset(target_kind(arguments.target).make(arguments.target, of.machine, arguments.options).release());
     figures = fit_to_target(of.machine, arguments.path.scalar, *out.target, arguments.motion.quiet);
     out.start = find_start(arguments, of, *out.target, input, begins, limits);
-    out.outputs.reset(input.gcode() != nullptr ? make_outputs(of.machine, arguments.target).release() : nullptr);
     return out;
 }
 
 /// For those who think that the machine of their file moves.
 void note_simulation(const RunArguments& arguments, const MachineDescription& machine) {
-    if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
+    if (!target_kind(arguments.target).is_real && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
         tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
              printable(machine.file));
     }
@@ -135,7 +133,7 @@ MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMach
 bool finds_help(const RunArguments& arguments, const PathInput& input, const Summary& summary) {
     const bool is_told =
         !arguments.outputs.report.empty() || arguments.result != nullptr || arguments.summary != SummaryKind::none;
-    return arguments.helps && arguments.target == "sim" && input.repeatable() && summary.optimum_time_s && is_told;
+    return arguments.helps && !target_kind(arguments.target).is_real && input.repeatable() && summary.optimum_time_s && is_told;
 }
 
 void find_help(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Motion& motion,
@@ -192,7 +190,7 @@ ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, 
 int run(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
     std::optional<SignalWatch> signals;
-    if (arguments.target != "sim") {
+    if (target_kind(arguments.target).is_real) {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
     const auto begun = std::chrono::steady_clock::now();
@@ -213,7 +211,6 @@ int run(const RunArguments& arguments) {
         look_before(input, path_limits, machine.settings.axes, signals.has_value());
     Connected real;
     std::optional<StateKeeper> state;
-    std::optional<Supervision> supervision;
     if (signals) {
         real = connect(arguments, of, input, path_limits, figures, motion_arguments.begins);
         motion_arguments.start = &*real.start;
@@ -225,14 +222,20 @@ int run(const RunArguments& arguments) {
     if (!arguments.outputs.report.empty()) {
         motion_arguments.record = &report.emplace(arguments.outputs.report, machine, figures.segment_ticks).record();
     }
+    std::optional<LiveMachine> live;
     if (signals) {
-        supervision.emplace(*real.target, *signals, real.outputs.get(), motion_arguments.state,
-                            report ? &report->record().target() : nullptr);
+        live.emplace(*real.target, machine,
+                     LiveMachine::Settings{.segment_ticks = figures.segment_ticks,
+                                           .signals = &*signals,
+                                           .state = motion_arguments.state,
+                                           .record = report ? &report->record().target() : nullptr},
+                     [&] { return input.gcode() != nullptr ? make_outputs(machine, arguments.target) : nullptr; });
+    } else {
+        live.emplace();
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
     note_simulation(arguments, machine);
-    Motion motion(motion_arguments, machine, figures, input, path_limits, outputs,
-                  supervision ? &*supervision : nullptr);
+    Motion motion(motion_arguments, machine, figures, input, path_limits, outputs, *live);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     Summary summary = motion.summary();
@@ -247,7 +250,7 @@ int run(const RunArguments& arguments) {
     }
     warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, arguments.summary);
-    supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
+    live.reset(); // from here on a signal says nothing any more: the sentence is told once
     return conclude(arguments, std::move(summary), stopped);
 }
 

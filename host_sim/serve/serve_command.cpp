@@ -5,12 +5,11 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/ports/target_table.hpp"
-#include "host_sim/run/output_table.hpp"
-#include "host_sim/run/target_fit.hpp"
+#include "host_sim/live/live_machine.hpp"
+#include "host_sim/live/output_table.hpp"
+#include "host_sim/live/target_fit.hpp"
 #include "host_sim/serve/serve_settings.hpp"
-#include "host_sim/serve/served_target.hpp"
 #include "host_sim/serve/server.hpp"
-#include "host_sim/serve/simulated_tool.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -20,8 +19,8 @@ namespace splinefeed::host {
 namespace {
 
 // Where an axis stands is said by the state file; without one all stand at 0, or at the end of travel beside it.
-ServedTarget::Settings places_of(const MachineState& state, const MachineDescription& machine) {
-    ServedTarget::Settings out;
+LiveMachine::Settings places_of(const MachineState& state, const MachineDescription& machine) {
+    LiveMachine::Settings out;
     for (const unsigned k : indices(machine.settings.axes)) {
         const double nearest =
             machine.travel[k] ? std::clamp(0.0, machine.travel[k]->low, machine.travel[k]->high) : 0.0;
@@ -44,14 +43,6 @@ std::string note_unknown(const MachineState& state, const MachineDescription& ma
                               " mm ($H finds references, and --state keeps places)";
 }
 
-/// Connects to it. The machine's limits become those that it carries.
-std::unique_ptr<ServedMachine> make_target(std::unique_ptr<RunTarget> made, const std::string& target,
-                                           RunMachine& machine, ServedTarget::Settings settings) {
-    settings.segment_ticks = fit_to_target(machine.machine, ScalarKind::fixed, *made, false).segment_ticks;
-    return std::make_unique<ServedTarget>(std::move(made), machine.machine, settings,
-                                          [&machine, target] { return make_outputs(machine.machine, target); });
-}
-
 } // namespace
 
 int run_serve(const ServeArguments& arguments) {
@@ -69,29 +60,25 @@ int run_serve(const ServeArguments& arguments) {
     RunMachine machine(choice, *input_format("gcode"));
     tell_note(note_of(choice, machine.machine));
     const MachineState begins = machine.state(arguments.state.value_or(""), "");
-    const ServedTarget::Settings told = places_of(begins, machine.machine);
-    std::unique_ptr<ServedMachine> tool;
-    SwitchFacts switches{.probe = true, .no_home = {}}; // the simulated machine's, which touches nothing
-    if (arguments.target != "sim") {
-        std::unique_ptr<RunTarget> made =
-            target_kind(arguments.target)
-                .make(arguments.target, machine.machine, {.interrupted = &ServedTarget::gives_up, .serves = true});
-        switches = made->switch_facts();
-        tell_note(made->has_feedback() ? std::string() : note_unknown(begins, machine.machine, told.told_mm));
-        tool = make_target(std::move(made), arguments.target, machine, told);
+    LiveMachine::Settings live_settings = places_of(begins, machine.machine);
+    const TargetKind& kind = target_kind(arguments.target);
+    const std::unique_ptr<RunTarget, DeleteInTime> target(
+        kind.make(arguments.target, machine.machine, {.interrupted = &LiveMachine::gives_up, .serves = true}).release());
+    if (kind.is_real && !target->has_feedback()) {
+        tell_note(note_unknown(begins, machine.machine, live_settings.told_mm));
     }
+    live_settings.segment_ticks = fit_to_target(machine.machine, ScalarKind::fixed, *target, false).segment_ticks;
+    LiveMachine live(*target, machine.machine, live_settings,
+                     [&] { return make_outputs(machine.machine, arguments.target); });
+    const SwitchFacts switches = target->switch_facts();
     const ControllerSettings settings = serve_settings(machine, switches);
     ServedMotion motion(machine.machine, settings);
-    if (tool == nullptr) {
-        tool = make_simulated_tool(machine.machine, motion.segments_per_sample(), told.told_mm,
-                                   begins.unknown_why.empty());
-    }
     std::optional<StateKeeper> state;
     if (arguments.state) {
         state.emplace(*arguments.state, machine.axes, begins);
     }
     signals.supervise(); // before anybody can connect
-    Server server(settings, motion, *tool, state ? &*state : nullptr, begins, console);
+    Server server(settings, motion, live, state ? &*state : nullptr, begins, console);
     std::string places;
     if (arguments.tcp) {
         places += "serving tcp " + server.door().listen(*arguments.tcp) + "\n";
@@ -106,7 +93,7 @@ int run_serve(const ServeArguments& arguments) {
     }
     print_whole(places, "the address");
     server.run(signals);
-    const std::string unconfirmed = tool->finish();
+    const std::string& unconfirmed = live.finish();
     if (!unconfirmed.empty()) {
         tell("splinefeed: {}\n", printable(unconfirmed));
     }

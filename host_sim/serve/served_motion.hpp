@@ -23,7 +23,6 @@ public:
     ServedMotion& operator=(const ServedMotion&) = delete;
 
     [[nodiscard]] LineMotion& motion() noexcept { return motion_; }
-    [[nodiscard]] int segments_per_sample() const noexcept { return limits_.segments_per_sample; }
 
 private:
     [[nodiscard]] Planner<Fixed>& planner() {

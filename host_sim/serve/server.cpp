@@ -100,11 +100,11 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 
 } // namespace
 
-Server::Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
+Server::Server(const ControllerSettings& settings, ServedMotion& motion, LiveMachine& live, StateKeeper* state,
                const MachineState& begins, bool says)
-    : motion_(&motion.motion()), tool_(&tool), state_(state), lines_(line_memory), answers_(answer_memory),
-      text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says),
-      places_(tool.places()) {
+    : motion_(&motion.motion()), live_(&live), state_(state), lines_(line_memory), answers_(answer_memory),
+      text_(answer_memory), controller_(settings, *motion_, live, {lines_, answers_}), says_(says),
+      places_(live.places()) {
     motion_->interpreter().restore(begins.offsets);
     door_ = make_sender_door({
         .opened =
@@ -154,19 +154,18 @@ void Server::obey(SignalWatch& signals) {
 }
 
 void Server::step() {
-    tool_->advance(Clock::now());
     controller_.execute(now_ms());
     if (controller_.state() == ControllerState::home) {
         moves();
     }
     FeedSegment segment;
     bool more = true;
-    while (tool_->has_room() && (more = controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item)) {
+    while (live_->has_room() && (more = controller_.next(segment, live_->is_dry(), now_ms()) == Pull::item)) {
         moves();
-        tool_->submit(segment);
+        live_->submit(segment);
     }
-    if (!more && motion_->at_rest() && (motion_->exhausted() || tool_->is_dry())) {
-        tool_->rest();
+    if (!more && motion_->at_rest() && (motion_->exhausted() || live_->is_dry())) {
+        live_->rest();
     }
 }
 
@@ -192,13 +191,13 @@ void Server::keep() {
     if (state_ == nullptr) {
         return;
     }
-    if (tool_->take_offsets_change()) {
+    if (live_->take_offsets_change()) {
         state_->offsets(motion_->interpreter().offsets());
     }
-    if (!tool_->stands() || !motion_->exhausted()) {
+    if (!live_->stands() || !motion_->exhausted()) {
         return;
     }
-    std::vector<RunTarget::AxisPlace> places = tool_->places(); // homing, an e-stop and sleep change them, too
+    std::vector<RunTarget::AxisPlace> places = live_->places(); // homing, an e-stop and sleep change them, too
     if (moved_ || places != places_) {
         state_->ends(places);
         places_ = std::move(places);
@@ -207,7 +206,7 @@ void Server::keep() {
 }
 
 void Server::run(SignalWatch& signals) {
-    for (bool reset = false; !leaves_ || !tool_->stands() || !motion_->at_rest();) {
+    for (bool reset = false; !leaves_ || !live_->stands() || !motion_->at_rest();) {
         door_->wait(period);
         obey(signals);
         if (leaves_ && !reset && requests_ == 0) {
@@ -223,7 +222,7 @@ void Server::run(SignalWatch& signals) {
     }
     moved_ = moved_ && state_ != nullptr;
     if (moved_) {
-        state_->ends(tool_->places());
+        state_->ends(live_->places());
     }
 }
 

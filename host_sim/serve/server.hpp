@@ -3,9 +3,8 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
-#include "host_sim/run/state_keeper.hpp"
+#include "host_sim/live/live_machine.hpp"
 #include "host_sim/serve/sender_door.hpp"
-#include "host_sim/serve/served_machine.hpp"
 #include "host_sim/serve/served_motion.hpp"
 
 #include "splinefeed/controller/controller.hpp"
@@ -16,7 +15,7 @@ class Server {
 public:
     /// All must outlive it. @param state  null: nothing is kept   @param begins  offsets, and where the machine stands
     /// @param says  tells the operator's terminal what happens
-    Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
+    Server(const ControllerSettings& settings, ServedMotion& motion, LiveMachine& live, StateKeeper* state,
            const MachineState& begins, bool says);
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
@@ -38,7 +37,7 @@ private:
     void keep();
 
     LineMotion* motion_;
-    ServedMachine* tool_;
+    LiveMachine* live_;
     StateKeeper* state_;
     std::vector<char> lines_;
     std::vector<char> answers_;

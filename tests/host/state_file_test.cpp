@@ -2,7 +2,7 @@
 #include "host_sim/config/state_file.hpp"
 
 #include "host_sim/base/durable_file.hpp"
-#include "host_sim/run/state_keeper.hpp"
+#include "host_sim/live/state_keeper.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"

@@ -30,7 +30,7 @@ struct MotionEnd {
 };
 
 /// For two threads: the planner's pushes segments and orders, the one that supervises looks every millisecond. It knows
-/// motions, and no program: a run has one of them (Supervision), a machine that is served has many (ServedTarget).
+/// motions, and no program.
 class TargetFeed {
 public:
     /// How far the planner may be ahead of the port. [us] More would only delay a hold.
@@ -64,6 +64,7 @@ public:
     /// An order for the outputs, behind all segments so far. @param standing  the machine stands there
     void order(const ProgramAction& action, bool standing);
     [[nodiscard]] bool carried_out() const;
+    [[nodiscard]] bool spindle_stands() const;
     /// What the last input has answered: ProgramOutputs.
     [[nodiscard]] int answer() const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/state_keeper.hpp"
+#include "host_sim/live/state_keeper.hpp"
 
 #include "host_sim/base/durable_file.hpp"
 #include "host_sim/base/text_file.hpp"

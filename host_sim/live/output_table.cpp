@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/output_table.hpp"
+#include "host_sim/live/output_table.hpp"
 
 #include "host_sim/ports/gpio/line_outputs.hpp"
 #include "host_sim/ports/modbus/modbus_outputs.hpp"
+#include "host_sim/ports/sim/sim_target.hpp"
+#include "host_sim/ports/target_table.hpp"
 
 namespace splinefeed::host {
 
 std::unique_ptr<ProgramOutputs> make_outputs(const MachineDescription& machine, const std::string& target) {
+    if (!target_kind(target).is_real) {
+        return std::make_unique<ProgramOutputs>(
+            machine.spindle ? std::make_unique<SimSpindle>(*machine.spindle) : nullptr, ProgramOutputs::Switches{});
+    }
     std::unique_ptr<RunSpindle> spindle;
     ProgramOutputs::Switches switches;
     ProgramOutputs::Inputs inputs;

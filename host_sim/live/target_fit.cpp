@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/target_fit.hpp"
+#include "host_sim/live/target_fit.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/target_feed.hpp"
+#include "host_sim/live/target_feed.hpp"
 
 #include "splinefeed/base/units.hpp"
 
@@ -43,6 +43,11 @@ void TargetFeed::order(const ProgramAction& action, bool standing) {
 bool TargetFeed::carried_out() const {
     const std::lock_guard lock(order_mutex_);
     return orders_.empty() && (outputs_ == nullptr || outputs_->reached());
+}
+
+bool TargetFeed::spindle_stands() const {
+    const std::lock_guard lock(order_mutex_);
+    return outputs_ == nullptr || outputs_->spindle_stands();
 }
 
 int TargetFeed::answer() const {

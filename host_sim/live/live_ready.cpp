@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the thread of a ServedTarget does before motions and between them: drives that are made ready, homed, reset,
+// What the thread of a LiveMachine does before motions and between them: drives that are made ready, homed, reset,
 // switched off.
-#include "host_sim/serve/served_target.hpp"
+#include "host_sim/live/live_machine.hpp"
 
 #include "splinefeed/base/units.hpp"
 
@@ -13,7 +13,7 @@
 namespace splinefeed::host {
 
 // The drives say where they stand; what they do not know has been told. Of those that cannot be asked it stays known.
-void ServedTarget::find_place() {
+void LiveMachine::find_place() {
     std::vector<RunTarget::AxisPlace> places;
     try {
         places = target_->standing();
@@ -31,14 +31,14 @@ void ServedTarget::find_place() {
 }
 
 // Where the motion begins the machine has to stand: else a position would get another name.
-void ServedTarget::begin_first() {
+void LiveMachine::begin_first() {
     if (phase_ == Phase::closed) {
         reopen();
     }
     if (phase_ != Phase::open) {
         return;
     }
-    const FeedSegment first = feed_.front();
+    const FeedSegment first = feed_->front();
     for (const unsigned k : indices(machine_->settings.axes)) {
         const double counts = static_cast<double>(first.start[k]) / static_cast<double>(units_per_count);
         const double off = std::fabs(counts - known_.mm[k] * machine_->settings.axis[k].steps_per_mm);
@@ -56,8 +56,23 @@ void ServedTarget::begin_first() {
     }
 }
 
+// Where the first segment begins is where the machine stands: RunStart has seen to that.
+void LiveMachine::begin_run() {
+    if (SignalWatch::interrupted()) {
+        fail("interrupted before anything was moved; the drives were not enabled");
+        return;
+    }
+    phase_ = Phase::failed;
+    if (const hal::PortFailure failure = target_->port().prepare(feed_->front())) {
+        fail(target_->sentence(failure));
+        return;
+    }
+    phase_ = Phase::ready;
+    feed_->begin(target_->port().poll().executed);
+}
+
 // Returns why it is not.
-std::string ServedTarget::make_ready(const FeedSegment& first) {
+std::string LiveMachine::make_ready(const FeedSegment& first) {
     target_->set_ready(options_);
     hal::MotionPort& port = target_->port();
     if (const hal::PortFailure failure = port.prepare(first)) {
@@ -65,16 +80,31 @@ std::string ServedTarget::make_ready(const FeedSegment& first) {
     }
     options_.reset = options_.home = false;
     phase_ = Phase::ready;
-    feed_.begin(port.poll().executed);
+    feed_->begin(port.poll().executed);
     return {};
 }
 
-void ServedTarget::close() {
+std::uint32_t LiveMachine::known_axes() const {
+    const std::lock_guard lock(mutex_);
+    return known_.axes;
+}
+
+FeedSegment LiveMachine::standing() const {
+    FeedSegment out{.duration_ticks = settings_.segment_ticks};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.start[k] =
+            std::llround(known_.mm[k] * machine_->settings.axis[k].steps_per_mm * static_cast<double>(units_per_count));
+    }
+    out.end = out.start;
+    return out;
+}
+
+void LiveMachine::close() {
     target_->disconnect();
     phase_ = Phase::closed;
 }
 
-void ServedTarget::switch_off() {
+void LiveMachine::switch_off() {
     if (phase_ == Phase::ready || !target_->has_feedback()) {
         if (const std::string what = target_->switch_off(); !what.empty()) {
             fail(what);
@@ -88,8 +118,8 @@ void ServedTarget::switch_off() {
 }
 
 // Behind a fault, or with drives that were off: everything anew, and their faults are reset.
-void ServedTarget::recover(bool resets) {
-    if (outputs_ == nullptr || feed_.outputs_ended() || !feed_.trouble().empty()) {
+void LiveMachine::recover(bool resets) {
+    if (outputs_ == nullptr || feed_->outputs_ended() || !feed_->trouble().empty()) {
         renew_outputs();
     }
     if (phase_ != Phase::closed && phase_ != Phase::failed) {
@@ -106,15 +136,21 @@ void ServedTarget::recover(bool resets) {
     }
 }
 
-// Once they have ended they take no order any more.
-void ServedTarget::renew_outputs() {
-    feed_.set_outputs(nullptr);
+// Once they have ended they take no order any more. What they had not confirmed by then is said at the end, if nobody
+// can be connected to any more.
+void LiveMachine::renew_outputs() {
+    feed_->set_outputs(nullptr);
+    if (outputs_ != nullptr) {
+        outputs_->end();
+        lost_outputs_ = outputs_->unended();
+    }
     outputs_.reset();
-    outputs_ = make_outputs_();
-    feed_.set_outputs(outputs_.get());
+    outputs_.reset(make_outputs_().release());
+    lost_outputs_.clear();
+    feed_->set_outputs(outputs_.get());
 }
 
-void ServedTarget::reopen() {
+void LiveMachine::reopen() {
     if (!target_->has_feedback()) {
         static_cast<void>(look_where(true)); // what was lost meanwhile stays so
     }
@@ -129,7 +165,7 @@ void ServedTarget::reopen() {
 
 // The axes that search stand at 0 behind it, the others where they are. One that does not find its reference may stand
 // anywhere.
-void ServedTarget::find_references(std::uint32_t axes) {
+void LiveMachine::find_references(std::uint32_t axes) {
     const std::uint32_t known = known_axes();
     const std::uint32_t search = target_->homes_with(axes);
     if (phase_ == Phase::ready || phase_ == Phase::closed) {

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/live/live_machine.hpp"
+
+#include "host_sim/config/decimal_number.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::host {
+
+namespace {
+
+ProgramAction action_of(const ProgramEvent& event) {
+    ProgramAction out{.kind = event.kind, .number = event.number, .value = number_of(event.value), .text = {}};
+    out.wait = event.wait;
+    switch (event.kind) {
+    case EventKind::spindle_clockwise: out.spindle = SpindleTurn{1, out.value}; break;
+    case EventKind::spindle_counterclockwise: out.spindle = SpindleTurn{-1, out.value}; break;
+    case EventKind::spindle_stop: out.spindle = SpindleTurn{}; break;
+    default: break;
+    }
+    return out;
+}
+
+} // namespace
+
+std::atomic<bool> LiveMachine::gives_up_{false};
+
+LiveMachine::LiveMachine(RunTarget& target, const MachineDescription& machine, const Settings& settings,
+                         MakeOutputs outputs)
+    : target_(&target), machine_(&machine), settings_(settings), make_outputs_(std::move(outputs)),
+      outputs_(make_outputs_().release()), reads_inputs_(outputs_ != nullptr && outputs_->reads_inputs()) {
+    feed_.emplace(target, outputs_.get(), settings.record, TargetFeed::Patience{}, *settings.clock);
+    gives_up_.store(false);
+    known_.mm = settings.told_mm;
+    unlocked_axes_ = all_axes() & (target.has_feedback() ? UINT32_MAX : ~target.switch_facts().homes);
+    if (serves()) {
+        find_place();
+        known_.axes |= target_->has_feedback() ? 0U : settings.told & all_axes();
+        start();
+    }
+}
+
+LiveMachine::~LiveMachine() {
+    if (runs() && !serves()) {
+        stop();
+    }
+    leave();
+    if (settings_.signals != nullptr) {
+        settings_.signals->at_once({});
+    }
+}
+
+void LiveMachine::start() {
+    thread_ = settings_.clock->start([this] { work(); });
+}
+
+// The thread is over behind it; each step of its end is bounded.
+void LiveMachine::leave() noexcept {
+    leaves_.store(true);
+    if (is_real() && serves()) {
+        gives_up_.store(true);
+    }
+    if (thread_ != nullptr) {
+        thread_->join();
+    }
+}
+
+const std::string& LiveMachine::finish() {
+    if (serves()) {
+        leave();
+        return ending_;
+    }
+    rest();
+    while (runs()) {
+        settings_.clock->sleep_us(poll_every_us);
+    }
+    return ending_;
+}
+
+// A port begins when it has enough, or all: a plan that waits for lines, and a port that waits for the plan, would wait
+// for ever.
+bool LiveMachine::is_dry() const {
+    const std::uint64_t left = submitted() - std::min(submitted(), executed());
+    return stalls_.load() ||
+           left * settings_.segment_ticks < target_->least_ahead_us() * static_cast<std::uint64_t>(ticks_per_us);
+}
+
+bool LiveMachine::submit(const FeedSegment& segment, std::uint64_t line, std::uint64_t moves) {
+    if (!is_real()) {
+        return true;
+    }
+    while (!over() && !has_room()) {
+        settings_.clock->sleep_us(poll_every_us);
+    }
+    if (over()) {
+        return false;
+    }
+    const bool first = thread_ == nullptr;
+    if (first) {
+        settings_.signals->supervise(); // from here on a signal is obeyed by the one end
+    }
+    if (first && settings_.state != nullptr) {
+        settings_.state->moves();
+    }
+    begin_label(line, moves);
+    at_rest_ = segment.ends_at_rest();
+    rests_ = false;
+    feed_->push(segment);
+    if (first) {
+        start();
+    }
+    return true;
+}
+
+// Those of segments that are executed are forgotten by come_to().
+void LiveMachine::begin_label(std::uint64_t line, std::uint64_t moves) {
+    const std::lock_guard lock(mutex_);
+    ++submitted_;
+    known_.axes |= unlocked_axes_;
+    if (labels_.empty() || labels_.back().line != line || labels_.back().moves != moves) {
+        labels_.push_back({line, moves, feed_->pushed()});
+    }
+}
+
+void LiveMachine::rest() {
+    if (std::exchange(rests_, true)) {
+        return;
+    }
+    if (at_rest_ || serves()) { // a controller rests behind a motion that was halted, too
+        feed_->complete();
+    } else {
+        stop("the plan ended while the axes moved");
+    }
+}
+
+void LiveMachine::stop(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    if (orders_.stops == 0 && !(rests_ && at_rest_)) {
+        stop_why_ = why;
+        orders_.stops = 1;
+    }
+}
+
+void LiveMachine::order(const ProgramAction& action, bool standing) {
+    if (is_real()) {
+        feed_->order(action, standing);
+    }
+}
+
+LiveMachine::Reached LiveMachine::reached() const {
+    const std::lock_guard lock(mutex_);
+    return labels_.empty() ? Reached{} : Reached{labels_.front().line, labels_.front().moves};
+}
+
+bool LiveMachine::stands() const {
+    const std::lock_guard lock(mutex_);
+    return submitted_ == finished_ && !busy_ && !orders_.any();
+}
+
+std::vector<RunTarget::AxisPlace> LiveMachine::places() const {
+    const std::lock_guard lock(mutex_);
+    if (!is_real() || !serves()) {
+        return known_.places;
+    }
+    std::vector<RunTarget::AxisPlace> out;
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.push_back({k, (known_.axes >> k & 1U) != 0 ? std::optional(known_.mm[k]) : std::nullopt});
+    }
+    return out;
+}
+
+void LiveMachine::describe(Summary& summary) const {
+    if (is_real()) {
+        target_->describe(summary);
+    }
+}
+
+MachineReading LiveMachine::read() noexcept {
+    MachineReading out;
+    out.stands = stands();
+    out.spindle_ready = feed_->carried_out();
+    out.input = feed_->answer();
+    const std::lock_guard lock(mutex_);
+    out.executes = !out.stands && feed_->executed() < feed_->pushed();
+    out.waypoint = out.executes ? static_cast<std::uint32_t>(labels_.front().moves) : 0;
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.position[k] = position_from_mm(known_.mm[k]);
+    }
+    out.known = known_.axes == all_axes();
+    out.homing = known_.homing;
+    out.alarm = known_.alarm;
+    out.inputs = known_.switches.limits | (known_.switches.probe ? InputBits::probe : 0U) |
+                 (known_.switches.e_stop ? InputBits::emergency_stop : 0U);
+    out.touched = known_.switches.touched_mm.has_value();
+    for (const unsigned k : indices(out.touched ? machine_->settings.axes : 0)) {
+        out.touched_at[k] = position_from_mm((*known_.switches.touched_mm)[k]);
+    }
+    out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
+    sentence_ = known_.sentence;
+    out.alarm_sentence = sentence_;
+    return out;
+}
+
+// The controller lets the machine stand before what has to wait for that.
+void LiveMachine::obey(const ProgramEvent& event) noexcept {
+    feed_->order(action_of(event), false);
+}
+
+bool LiveMachine::has_input(std::int32_t number) const noexcept {
+    return reads_inputs_ && machine_->lines.input(number) != nullptr;
+}
+
+void LiveMachine::forget_input() noexcept {
+    constexpr std::int32_t none = -1;
+    feed_->order({.kind = EventKind::input_wait, .number = none, .text = {}}, false);
+}
+
+void LiveMachine::watch_probe(bool away) noexcept {
+    const std::lock_guard lock(mutex_);
+    orders_.probe = away;
+    known_.switches.touched_mm.reset();
+}
+
+void LiveMachine::home(std::uint32_t axes) noexcept {
+    const std::lock_guard lock(mutex_);
+    orders_.home = axes;
+    known_.homing = HomingPhase::busy;
+}
+
+bool LiveMachine::halt() noexcept {
+    const std::lock_guard lock(mutex_);
+    const bool halts = submitted_ != finished_ && target_->halts();
+    orders_.stops = halts ? std::max(orders_.stops, 1) : orders_.stops;
+    return halts;
+}
+
+void LiveMachine::quick_stop() noexcept {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(orders_.home, 0U) != 0) { // not begun
+        known_.homing = HomingPhase::failed;
+    }
+    orders_.stops = submitted_ != finished_ ? 2 : orders_.stops;
+    gives_up_.store(true);
+}
+
+void LiveMachine::enable(bool on) noexcept {
+    const std::lock_guard lock(mutex_);
+    (on ? orders_.opens : orders_.off) = true;
+}
+
+void LiveMachine::reset_faults() noexcept {
+    const std::lock_guard lock(mutex_);
+    orders_.opens = orders_.resets = true;
+    known_.alarm = Alarm::none;
+    known_.sentence.clear();
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MIT
+//
+// What the thread of a LiveMachine does: looks, motions of the port, and the one end.
+#include "host_sim/base/output_file.hpp"
+#include "host_sim/live/live_machine.hpp"
+#include "host_sim/output/place_text.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::uint64_t look_every_us = 40'000; // where it stands
+constexpr int not_finished = 1;
+
+Alarm alarm_of(StopCause cause) {
+    switch (cause) {
+    case StopCause::none: break;
+    case StopCause::drive_fault: return Alarm::drive_fault;
+    case StopCause::limit_switch: return Alarm::limit_switch;
+    case StopCause::emergency_stop: return Alarm::emergency_stop;
+    }
+    return Alarm::none;
+}
+
+std::string with_trouble(const std::string& ending, const std::string& trouble) {
+    if (trouble.empty()) {
+        return ending;
+    }
+    constexpr std::string_view begin = "interrupted: ";
+    const bool prefixed = ending.compare(0, begin.size(), begin) == 0;
+    const std::string rest = prefixed ? ending.substr(begin.size()) : ending;
+    return rest.empty() ? trouble : trouble + "; " + rest;
+}
+
+} // namespace
+
+void LiveMachine::work() noexcept {
+    hal::Clock& clock = *settings_.clock;
+    for (std::uint64_t next_us = clock.now_us(); !ends_ && !(serves() && leaves_.load());
+         next_us = std::max(next_us + poll_every_us, clock.now_us())) {
+        clock.sleep_until_us(next_us);
+        try {
+            step();
+        } catch (const std::exception& error) {
+            if (!serves()) {
+                target_->port().quick_stop();
+            }
+            fail(error.what());
+        }
+    }
+    end();
+}
+
+LiveMachine::Orders LiveMachine::take_orders() {
+    const std::lock_guard lock(mutex_);
+    const bool moves = !serves() || submitted_ != finished_;
+    const int signals = std::min(SignalWatch::interrupts(), 2);
+    // Of a machine that is served the plan brakes, as at each reset, where the drives do not do so sooner.
+    const int asked = !serves() || target_->halts() || signals > 1 ? signals : 0;
+    orders_.stops = moves ? std::max(orders_.stops, asked) : 0;
+    Orders out = orders_;
+    orders_ = {.stops = out.stops};
+    busy_ = out.any();
+    gives_up_.store(serves() && leaves_.load()); // what was given up is over
+    if (!stop_why_.empty()) {
+        feed_->set_trouble(stop_why_);
+    }
+    return out;
+}
+
+void LiveMachine::step() {
+    const Orders orders = take_orders();
+    if (orders.probe) {
+        target_->watch_probe(*orders.probe);
+    }
+    if (orders.off) {
+        switch_off();
+    }
+    if (orders.opens) {
+        recover(orders.resets);
+    }
+    if (orders.home != 0) {
+        find_references(orders.home);
+    }
+    come_to(feed_->executed());
+    if (phase_ == Phase::ready) {
+        if (const std::optional<MotionEnd> end = feed_->look(orders.stops)) {
+            come_to(feed_->executed());
+            end_motion(*end);
+        } else {
+            static_cast<void>(look_where(false));
+            announce();
+        }
+        look_at_switches();
+        return;
+    }
+    if (!serves()) {
+        begin_run();
+        return;
+    }
+    feed_->tend_outputs();
+    if (phase_ != Phase::closed) {
+        announce();
+    }
+    look_at_switches();
+    if (phase_ != Phase::failed && !feed_->trouble().empty()) {
+        fail(feed_->trouble(), Alarm::spindle_speed);
+    } else if (feed_->waits() && (phase_ == Phase::failed || orders.stops > 0)) {
+        drop_motion();
+    } else if (feed_->waits()) {
+        begin_first();
+    }
+}
+
+// What stops the machine is an alarm at once: where its drives do not halt by themselves the plan brakes.
+void LiveMachine::announce() {
+    if (!serves()) {
+        return;
+    }
+    const RunTarget::Stop stop = target_->stopped_by();
+    const bool troubled = !feed_->trouble().empty() && !target_->halts();
+    const Alarm alarm = troubled ? Alarm::spindle_speed : alarm_of(stop.cause);
+    const std::string& why = troubled ? feed_->trouble() : stop.why;
+    bool moves = false;
+    {
+        const std::lock_guard lock(mutex_);
+        const bool worse = alarm == Alarm::emergency_stop && known_.alarm != alarm;
+        if (alarm == Alarm::none || orders_.opens || !(worse || known_.alarm == Alarm::none)) {
+            return;
+        }
+        moves = submitted_ != finished_ && phase_ == Phase::ready;
+        known_.alarm = alarm;
+        known_.sentence = why;
+    }
+    if (!moves) {
+        fail(why, alarm);
+    }
+}
+
+void LiveMachine::look_at_switches() {
+    if (!serves()) {
+        return;
+    }
+    RunTarget::Switches now = target_->switches();
+    const std::lock_guard lock(mutex_);
+    now.touched_mm = orders_.probe ? std::nullopt : now.touched_mm; // of the one before
+    known_.switches = now;
+}
+
+// The machine is in the segment behind those that were executed.
+void LiveMachine::come_to(std::uint64_t executed) {
+    constexpr std::uint64_t while_it_moves_us = 50'000; // answers of drives may be late
+    const std::uint64_t now_us = settings_.clock->now_us();
+    moved_us_ = executed != seen_ ? now_us : moved_us_;
+    seen_ = executed;
+    stalls_.store(now_us - moved_us_ > while_it_moves_us);
+    const std::lock_guard lock(mutex_);
+    while (labels_.size() > 1 && labels_[1].segment <= executed) {
+        labels_.pop_front();
+    }
+}
+
+// The end of a segment, to the last digit.
+void LiveMachine::take_place(const FeedSegment& segment) {
+    const std::lock_guard lock(mutex_);
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        known_.mm[k] = static_cast<double>(segment.end[k]) /
+                       (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
+    }
+}
+
+void LiveMachine::end_motion(const MotionEnd& end) {
+    if (!serves()) {
+        reason_ = end.why;
+        ends_ = true;
+        return;
+    }
+    const FeedSegment last = feed_->last();
+    if (end.kind != MotionEnd::Kind::complete || !end.why.empty() || feed_->obeyed() > 0) {
+        feed_->drop();
+    } // else what waits is the next motion
+    if (!feed_->trouble().empty()) {
+        fail(feed_->trouble(), Alarm::spindle_speed);
+        return;
+    }
+    if (end.kind == MotionEnd::Kind::fault || target_->stopped_by().cause != StopCause::none) {
+        fail_by(end.why);
+        return;
+    }
+    FeedSegment next{.duration_ticks = settings_.segment_ticks, .start = last.end, .end = last.end};
+    if (end.kind == MotionEnd::Kind::halted) {
+        constexpr int looks = 100; // a drive's answer may be late
+        const std::uint32_t known = known_axes();
+        for (int look = 0; look < looks && !look_where(true); ++look) {
+            settings_.clock->sleep_us(10 * poll_every_us);
+        }
+        if ((known & ~known_axes()) != 0) {
+            fail(end.why, Alarm::stopped_in_motion);
+            return;
+        }
+        next = standing();
+    } else {
+        take_place(last);
+    }
+    if (const hal::PortFailure failure = target_->port().renew(next)) {
+        fail_by(target_->sentence(failure));
+        return;
+    }
+    feed_->begin(target_->port().poll().executed);
+    if (feed_->outputs_ended()) {
+        renew_outputs();
+    }
+    finish_motion();
+}
+
+// As the target says what has stopped it; else its drives have.
+void LiveMachine::fail_by(const std::string& sentence) {
+    const RunTarget::Stop stop = target_->stopped_by();
+    if (stop.cause == StopCause::none) {
+        fail(sentence);
+    } else {
+        fail(stop.why, alarm_of(stop.cause));
+    }
+}
+
+void LiveMachine::fail(const std::string& sentence, Alarm alarm) {
+    if (!serves()) {
+        reason_ = sentence;
+        ends_ = true;
+        return;
+    }
+    if (phase_ == Phase::ready || !target_->has_feedback()) {
+        static_cast<void>(look_where(true));
+    }
+    phase_ = Phase::failed;
+    {
+        const std::lock_guard lock(mutex_);
+        known_.alarm = alarm;
+        known_.sentence = sentence;
+    }
+    drop_motion();
+}
+
+void LiveMachine::drop_motion() {
+    feed_->drop();
+    feed_->begin(0);
+    finish_motion();
+}
+
+// A stop that comes now is meant for what follows.
+void LiveMachine::finish_motion() {
+    const std::lock_guard lock(mutex_);
+    finished_ = feed_->taken();
+    orders_.stops = finished_ == submitted_ ? 0 : orders_.stops;
+    known_.speed_mm_s = 0.0;
+}
+
+// While it stands, its place is that to the last digit where the motion ended.
+bool LiveMachine::look_where(bool at_once) {
+    const std::uint64_t now_us = settings_.clock->now_us();
+    if (!at_once && now_us < looked_us_ + look_every_us) {
+        return true;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        if (submitted_ == finished_ && !at_once) {
+            return true;
+        }
+    }
+    std::vector<RunTarget::AxisPlace> places = target_->places();
+    const std::lock_guard lock(mutex_);
+    if (places.empty()) { // nothing has moved
+        return known_.axes == all_axes();
+    }
+    double way_sq = 0.0;
+    std::uint32_t axes = 0;
+    for (const RunTarget::AxisPlace& at : places) {
+        const double mm = at.mm.value_or(known_.mm[at.axis]);
+        way_sq += (mm - known_.mm[at.axis]) * (mm - known_.mm[at.axis]);
+        known_.mm[at.axis] = mm;
+        axes |= at.known() ? 1U << at.axis : 0U;
+    }
+    known_.speed_mm_s =
+        std::sqrt(way_sq) * us_per_s / static_cast<double>(std::max<std::uint64_t>(1, now_us - looked_us_));
+    looked_us_ = now_us;
+    known_.axes = at_once ? known_.axes & axes : known_.axes;
+    known_.places = std::move(places);
+    return axes == all_axes();
+}
+
+// A spindle that was ended comes to a standstill by its own ramp, and modules confirm what they were told; a further
+// signal does not wait for it.
+std::string LiveMachine::outputs_end() {
+    const int signals = SignalWatch::interrupts();
+    while (outputs_ != nullptr && outputs_->ends() && SignalWatch::interrupts() == signals) {
+        settings_.clock->sleep_us(poll_every_us);
+    }
+    return outputs_ != nullptr ? outputs_->unended() : lost_outputs_;
+}
+
+// Counted in looks, not in time: a process that was stopped meanwhile is no planner that is blocked.
+void LiveMachine::await_planner() noexcept {
+    constexpr int looks_a_second = 100;
+    std::uint64_t writes = OutputFile::writes();
+    for (int looks = 0; looks < stall_s * looks_a_second && !leaves_.load(); ++looks) {
+        settings_.clock->sleep_us(us_per_s / looks_a_second);
+        if (const std::uint64_t now = OutputFile::writes(); now != writes) {
+            writes = now;
+            looks = 0;
+        }
+    }
+    if (!leaves_.load()) {
+        target_->port().close();
+        abandon(ending_ + "; an output whose reader does not read was given up", not_finished);
+    }
+}
+
+// The axes stand, or are known not to have confirmed it. Drives that were not made ready are left alone.
+void LiveMachine::end() noexcept {
+    const auto add = [this](const std::string& what) {
+        ending_ += what.empty() || ending_.empty() ? what : "; " + what;
+    };
+    const auto step = [&](const auto& what) {
+        try {
+            what();
+        } catch (const std::exception& error) {
+            add(error.what());
+        }
+    };
+    const bool began = phase_ == Phase::ready || phase_ == Phase::failed || (serves() && !target_->has_feedback());
+    std::vector<RunTarget::AxisPlace> places;
+    feed_->end_outputs();
+    if (!serves()) {
+        feed_->set_trouble(outputs_ != nullptr ? outputs_->trouble() : std::string());
+        ending_ = with_trouble(reason_, feed_->trouble());
+    }
+    if (began) {
+        step([&] {
+            places = target_->places();
+            where_ = target_->where() + on_line(reached().line);
+        });
+        step([&] { add(target_->finish()); });
+    }
+    step([&] { add(outputs_end()); });
+    {
+        const std::lock_guard lock(mutex_);
+        known_.places = places;
+    }
+    if (settings_.state != nullptr) {
+        step([&] { settings_.state->ends(places); });
+    }
+    if (serves()) {
+        target_->port().close();
+    } else {
+        settings_.signals->at_once(
+            [this, sentence = (ending_.empty()
+                                   ? std::string("interrupted while outputs were written; the motion was complete")
+                                   : ending_) +
+                              where_] {
+                target_->port().close();
+                abandon(sentence, not_finished);
+            });
+        ending_ += ending_.empty() ? std::string() : where_;
+    }
+    const bool waits = !serves() && !ending_.empty();
+    over_.store(true);
+    if (waits) {
+        await_planner();
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/ports/sim/sim_target.hpp"
+
+#include "host_sim/output/place_text.hpp"
+#include "host_sim/ports/target_table.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include <cmath>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::uint64_t homing_us = 500'000;
+constexpr std::uint64_t give_up_every_us = 1000;
+
+} // namespace
+
+hal::PortFailure SimTarget::prepare(const FeedSegment& first) {
+    for (const std::uint64_t end_us = clock_->now_us() + homing_us; options_.home && clock_->now_us() < end_us;) {
+        if (options_.interrupted()) {
+            return {"interrupted"};
+        }
+        clock_->sleep_us(give_up_every_us);
+    }
+    return renew(first);
+}
+
+hal::PortFailure SimTarget::renew(const FeedSegment& first) {
+    checks_.emplace(*machine_, 1);
+    take_place(first.start);
+    phase_ = hal::PortPhase::running;
+    completed_ = false;
+    return {};
+}
+
+void SimTarget::take_place(const PerAxis<std::int64_t>& units) noexcept {
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        mm_[k] = static_cast<double>(units[k]) /
+                 (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
+    }
+}
+
+int SimTarget::room() const noexcept {
+    return queued_ticks_ < ahead_us * static_cast<std::uint64_t>(ticks_per_us) ? 1 : 0;
+}
+
+bool SimTarget::submit(const FeedSegment& segment) noexcept {
+    queue_.push_back(segment);
+    queued_ticks_ += segment.duration_ticks;
+    return phase_ == hal::PortPhase::running;
+}
+
+hal::PortState SimTarget::poll() noexcept {
+    const std::uint64_t now_ticks = clock_->now_us() * static_cast<std::uint64_t>(ticks_per_us);
+    if (queue_.empty()) {
+        time_ticks_ = now_ticks;
+    }
+    while (!queue_.empty() && phase_ == hal::PortPhase::running &&
+           time_ticks_ + queue_.front().duration_ticks <= now_ticks) {
+        const FeedSegment segment = queue_.front();
+        queue_.pop_front();
+        queued_ticks_ -= segment.duration_ticks;
+        time_ticks_ += segment.duration_ticks;
+        if (!checks_->submit(segment) || checks_->poll().phase == hal::PortPhase::fault) {
+            stop(hal::PortPhase::fault);
+        } else {
+            take_place(segment.end);
+            ++executed_;
+        }
+    }
+    const bool done = completed_ && queue_.empty() && phase_ == hal::PortPhase::running;
+    return {done ? hal::PortPhase::idle : phase_, executed_};
+}
+
+void SimTarget::stop(hal::PortPhase phase) noexcept {
+    queue_.clear();
+    queued_ticks_ = 0;
+    phase_ = phase;
+}
+
+hal::PortFailure SimTarget::failure() const {
+    return checks_ ? checks_->failure() : hal::PortFailure{};
+}
+
+std::string SimTarget::halted(bool quick) const {
+    return quick ? "interrupted twice: all axes stopped, each for itself" : "interrupted: all axes stopped";
+}
+
+std::vector<RunTarget::AxisPlace> SimTarget::places() const {
+    std::vector<AxisPlace> out;
+    for (const unsigned k : indices(checks_ ? machine_->settings.axes : 0)) { // else nothing has moved
+        out.push_back({k, mm_[k]});
+    }
+    return out;
+}
+
+std::string SimTarget::where() const {
+    PlaceText text;
+    for (const AxisPlace& at : places()) {
+        text.add(machine_->axis_name[at.axis], at.mm, at.online);
+    }
+    return places().empty() ? "; nothing was moved" : text.text();
+}
+
+void SimSpindle::order(int direction, double rpm) {
+    const double wanted = direction * rpm;
+    const double takes_us = machine_->change_s(rpm_.load(), wanted) * static_cast<double>(us_per_s);
+    ready_us_.store(clock_->now_us() + static_cast<std::uint64_t>(std::llround(takes_us)));
+    rpm_.store(wanted);
+}
+
+extern const TargetKind sim_kind{
+    .names = "sim",
+    .help = "sim: the simulated machine in this process (default)",
+    .is_real = false,
+    .is = [](const std::string& target) { return target == "sim"; },
+    .check =
+        [](const std::string& /*target*/) {
+        },
+    .make = [](const std::string& /*target*/, const MachineDescription& machine,
+               const RunOptions& options) -> std::unique_ptr<RunTarget> {
+        return std::make_unique<SimTarget>(machine, options);
+    },
+    .report = nullptr,
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SimTarget: the simulated machine in real time, a target like others. SimSpindle: its spindle.
+#pragma once
+
+#include "host_sim/machine/simulated_machine.hpp"
+#include "host_sim/ports/output_parts.hpp"
+#include "host_sim/ports/run_target.hpp"
+
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <atomic>
+#include <deque>
+#include <optional>
+
+namespace splinefeed::host {
+
+/// It executes each segment when its time has passed; where segments come late the motion waits. What breaks a limit is
+/// a fault. It stands where it was told, and stops in an instant. Homing takes half a second. Nothing is ever touched.
+class SimTarget final : public RunTarget, private hal::MotionPort {
+public:
+    /// All must outlive it.
+    SimTarget(const MachineDescription& machine, const RunOptions& options,
+              hal::Clock& clock = hal::system_clock()) noexcept
+        : machine_(&machine), options_(options), clock_(&clock) {}
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
+    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
+    void set_ready(const RunOptions& options) override { options_ = options; }
+    void disconnect() override {}
+    [[nodiscard]] bool has_feedback() const noexcept override { return false; }
+    [[nodiscard]] SwitchFacts switch_facts() const override { return {.probe = true, .no_home = {}}; }
+    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override { return dry_us; }
+    [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override { return {}; }
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
+    [[nodiscard]] std::string where() const override;
+    void describe(Summary& /*summary*/) const override {}
+
+private:
+    static constexpr std::uint64_t ahead_us = 10'000; // of motion that it holds
+    static constexpr std::uint64_t dry_us = 8'000;
+
+    [[nodiscard]] hal::PortFailure open() override { return {}; }
+    [[nodiscard]] hal::PortFailure prepare(const FeedSegment& first) override;
+    [[nodiscard]] hal::PortFailure renew(const FeedSegment& first) override;
+    [[nodiscard]] int room() const noexcept override;
+    [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
+    void complete() noexcept override { completed_ = true; }
+    hal::PortState poll() noexcept override;
+    void halt() noexcept override { stop(hal::PortPhase::halted); }
+    [[nodiscard]] hal::PortFailure failure() const override;
+
+    void take_place(const PerAxis<std::int64_t>& units) noexcept;
+    void stop(hal::PortPhase phase) noexcept;
+
+    const MachineDescription* machine_;
+    RunOptions options_;
+    hal::Clock* clock_;
+    std::optional<SimulatedMachine> checks_; // of this motion
+    std::deque<FeedSegment> queue_;
+    std::uint64_t queued_ticks_ = 0;
+    std::uint64_t time_ticks_ = 0; // up to which the motion has come
+    std::uint64_t executed_ = 0;
+    PerAxis<double> mm_{};
+    hal::PortPhase phase_ = hal::PortPhase::idle;
+    bool completed_ = false;
+};
+
+/// It takes the time that the machine file says.
+class SimSpindle final : public RunSpindle {
+public:
+    explicit SimSpindle(const SpindleDescription& machine, hal::Clock& clock = hal::system_clock()) noexcept
+        : machine_(&machine), clock_(&clock) {}
+
+    void order(int direction, double rpm) override;
+    void end() override { order(0, 0.0); }
+    [[nodiscard]] bool reached() const override { return clock_->now_us() >= ready_us_.load(); }
+    [[nodiscard]] bool stands() const override { return rpm_.load() == 0.0 && reached(); }
+    [[nodiscard]] std::string trouble() const override { return {}; }
+    [[nodiscard]] double stop_timeout_s() const override { return machine_->change_s(machine_->max_rpm, 0.0); }
+
+private:
+    const SpindleDescription* machine_;
+    hal::Clock* clock_;
+    std::atomic<double> rpm_{0.0};
+    std::atomic<std::uint64_t> ready_us_{0};
+};
+
+} // namespace splinefeed::host
