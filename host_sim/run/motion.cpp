@@ -19,20 +19,18 @@ constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the targ
 
 Motion::Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
                PathInput& input, const PathLimits& path_limits, Outputs& outputs, LiveMachine& live)
-    : quiet_(arguments.quiet), progress_alone_(arguments.progress), enforce_(arguments.enforce),
-      measures_(arguments.measures), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
-      state_(arguments.state), start_(arguments.start), report_(arguments.report), record_(arguments.record),
-      kept_(arguments.kept), live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
+    : asked_(arguments), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
+      live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
                                                          input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
       share_(description.settings), steps_(figures, !arguments.quiet, live, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),
-      work_(measures_ && !live.is_real() && arguments.record == nullptr && input.within_tolerance()),
+      work_(asked_.measures && !live.is_real() && arguments.record == nullptr && input.within_tolerance()),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
                             .error = &error_,
-                            .deviation = measures_ && input.within_tolerance() ? &deviation_ : nullptr,
-                            .optimum = measures_ ? &optimum_ : nullptr,
+                            .deviation = asked_.measures && input.within_tolerance() ? &deviation_ : nullptr,
+                            .optimum = asked_.measures ? &optimum_ : nullptr,
                             .work = &work_,
                             .share = &share_}),
       path_(plan_path(input, description, watch_, arguments.planner)), feeder_(path_->feeder()),
@@ -42,9 +40,9 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                 .ticks_per_segment = arguments.enforce ? SimulationOptions{}.ticks_per_segment : 1,
                 .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {
-    if (record_ != nullptr) {
+    if (asked_.record != nullptr) {
         deviation_.tell([this](std::uint64_t move, double mm) {
-            record_->deviates(feeder_.program()->number_of_move(move) - 1, mm);
+            asked_.record->deviates(feeder_.program()->number_of_move(move) - 1, mm);
         });
     }
 }
@@ -66,14 +64,14 @@ void Motion::execute_all() {
         }
         if (dwells) {
             come_to(steps_.line());
-            if (record_ != nullptr) {
-                record_->dwells(steps_.line());
+            if (asked_.record != nullptr) {
+                asked_.record->dwells(steps_.line());
             }
             if (!execute_first(segment)) {
                 break;
             }
-            if (report_ != nullptr) {
-                report_->stood(steps_.line(), segment.duration_ticks / (ticks_per_us * 1e6));
+            if (asked_.report != nullptr) {
+                asked_.report->stood(steps_.line(), segment.duration_ticks / (ticks_per_us * 1e6));
             }
             stood_s_ += segment.duration_ticks / (ticks_per_us * 1e6);
             steps_.stood(segment);
@@ -83,8 +81,8 @@ void Motion::execute_all() {
             if (!execute_first(segment)) {
                 break;
             }
-            if (report_ != nullptr) {
-                report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
+            if (asked_.report != nullptr) {
+                asked_.report->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
             show_progress();
         } else if (path_->state() == Pull::held) {
@@ -132,7 +130,7 @@ bool Motion::wait() {
         measure(pushed);
         return true;
     }
-    if (moves_ || !held_by_target_) {
+    if (moves_ || held_ != Held::by_machine) {
         if (!late_ || moves_ || segments_ == 0) {
             return true;
         }
@@ -157,8 +155,8 @@ bool Motion::pull(FeedSegment& segment) {
 void Motion::operate() {
     constexpr double same_s = 1e-9;
     for (; operated_ < events_.size() && events_[operated_].time_s <= machine_.cycle_time_s() + same_s; ++operated_) {
-        if (record_ != nullptr) {
-            record_->operated(machine_.cycle_time_s(), events_[operated_]);
+        if (asked_.record != nullptr) {
+            asked_.record->operated(machine_.cycle_time_s(), events_[operated_]);
         }
         switch (events_[operated_].operation) {
         case Operation::hold: path_->hold(); break;
@@ -171,8 +169,8 @@ void Motion::operate() {
 
 // Switches and the user's signals, in real time.
 void Motion::obey_machine() {
-    if (!held_by_target_ && live_->hold_asked()) {
-        held_by_target_ = true;
+    if (held_ != Held::by_machine && live_->hold_asked()) {
+        held_ = Held::by_machine;
         path_->hold();
     }
     const UserSteering steering = live_->take_steering();
@@ -181,7 +179,7 @@ void Motion::obey_machine() {
     case UserSteering::hold:
     case UserSteering::suspend:
     case UserSteering::held:
-        held_by_user_ = true;
+        held_ = held_ == Held::no ? Held::by_user : held_;
         path_->hold();
         if (steering == UserSteering::suspend) {
             suspend_.ask();
@@ -192,8 +190,8 @@ void Motion::obey_machine() {
     case UserSteering::resume:
         steps_.go_on();
         suspend_.forget();
-        held_by_user_ = false;
-        if (!held_by_target_) {
+        if (held_ != Held::by_machine) {
+            held_ = Held::no;
             path_->resume();
         }
         break;
@@ -203,11 +201,11 @@ void Motion::obey_machine() {
 
 // Time passes while the machine is held; false where nothing will ever move it.
 bool Motion::stand() {
-    if (held_by_target_ || (operated_ == events_.size() && !held_by_user_)) {
+    if (held_ == Held::by_machine || (operated_ == events_.size() && held_ == Held::no)) {
         return false;
     }
-    if (record_ != nullptr) {
-        record_->waits(MotionRecord::Why::held);
+    if (asked_.record != nullptr) {
+        asked_.record->waits(MotionRecord::Why::held);
     }
     FeedSegment segment;
     return path_->stand(segment) && execute(segment);
@@ -215,7 +213,7 @@ bool Motion::stand() {
 
 // Whether the program wants the machine to stand for another segment.
 bool Motion::dwell(FeedSegment& segment) {
-    if (moves_ || held_by_target_ || steps_.empty()) {
+    if (moves_ || held_ == Held::by_machine || steps_.empty()) {
         return false;
     }
     const bool stands = steps_.stands(machine_.position_mm(), machine_.cycle_time_s());
@@ -241,8 +239,8 @@ void Motion::pass(std::uint32_t row) {
     feeder_.passed(row);
     passed_ = feeder_.whole_row(row) + 1;
     const std::uint64_t line = feeder_.line_of_row(row);
-    if (record_ != nullptr) {
-        record_->come_to(passed_ - 1, input_->segments() == nullptr ? line : passed_, input_->gcode() != nullptr);
+    if (asked_.record != nullptr) {
+        asked_.record->come_to(passed_ - 1, input_->segments() == nullptr ? line : passed_, input_->gcode() != nullptr);
     }
     come_to(line);
 }
@@ -269,8 +267,8 @@ void Motion::read() {
         read_all_ = !feeder_.more(pushed);
         if (!read_all_ && pushed.on_path) {
             error_.waypoint(pushed.index, pushed.position);
-            if (record_ != nullptr) {
-                record_->waypoint(pushed.position);
+            if (asked_.record != nullptr) {
+                asked_.record->waypoint(pushed.position);
             }
         }
         if (!read_all_) {
@@ -284,7 +282,7 @@ void Motion::read() {
 
 // Executes a segment; before the first one the machine comes to where it begins.
 bool Motion::execute_first(FeedSegment& segment) {
-    if (segments_ > 0 || start_ == nullptr) {
+    if (segments_ > 0 || asked_.start == nullptr) {
         return execute(segment);
     }
     PerAxis<double> to{};
@@ -292,37 +290,37 @@ bool Motion::execute_first(FeedSegment& segment) {
         to[k] = static_cast<double>(segment.start[k]) / static_cast<double>(units_per_count) /
                 description_->settings.axis[k].steps_per_mm;
     }
-    const auto from = start_->move_from(to);
+    const auto from = asked_.start->move_from(to);
     return (!from || move_to(segment, *from, to)) && execute(segment);
 }
 
 // A straight line at the machine's limits, before the path. False: it was held, or the run is over.
 bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
     way_.emplace(*description_, from, to, description_->settings.max_feed_mm_s);
-    if (record_ != nullptr) {
-        record_->approach(true);
+    if (asked_.record != nullptr) {
+        asked_.record->approach(true);
     }
     FeedSegment segment;
     for (;;) {
         obey_machine();
-        if (held_by_target_ || held_by_user_) {
+        if (held_ != Held::no) {
             way_->hold();
         } else {
             way_->resume();
         }
-        if (!way_->next(segment) && (held_by_target_ || !held_by_user_ || !way_->stand(segment))) {
+        if (!way_->next(segment) && (held_ != Held::by_user || !way_->stand(segment))) {
             break;
         }
         if (!execute(segment)) {
             return false;
         }
     }
-    if (held_by_target_) {
+    if (held_ == Held::by_machine) {
         return false;
     }
     way_.reset();
-    if (record_ != nullptr) {
-        record_->approach(false);
+    if (asked_.record != nullptr) {
+        asked_.record->approach(false);
     }
     first.start = segments_ > 0 ? segment.end : first.start; // to the last digit
     rests_ = 0;                                              // those of the path count
@@ -345,11 +343,11 @@ bool Motion::execute(FeedSegment& segment) {
         return false;
     }
     share_.segment(segment);
-    if (record_ != nullptr) {
-        record_->segment(segment, share_);
+    if (asked_.record != nullptr) {
+        asked_.record->segment(segment, share_);
     }
-    if (kept_ != nullptr) {
-        kept_->add(segment, input_->gcode() != nullptr ? line_ : passed_, share_.binding_limit());
+    if (asked_.kept != nullptr) {
+        asked_.kept->add(segment, input_->gcode() != nullptr ? line_ : passed_, share_.binding_limit());
     }
     if (!live_->submit(segment, line_, passed_)) {
         stopped_ = live_->ending();
@@ -365,7 +363,7 @@ bool Motion::execute(FeedSegment& segment) {
 void Motion::measure(const PathFeeder::Pushed& pushed) {
     steps_.add(pushed);
     program_.see(pushed);
-    if (!measures_) {
+    if (!asked_.measures) {
         return;
     }
     if (pushed.start) {

@@ -104,20 +104,12 @@ private:
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
     [[nodiscard]] std::string where() const;
 
-    bool quiet_;
-    bool progress_alone_;
-    bool enforce_;
-    bool measures_;
+    MotionArguments asked_;
     const MachineDescription* description_;
     const PlanFigures* figures_;
     PathInput* input_;
     Outputs* outputs_;
-    StateKeeper* state_;                // null: nothing is kept
-    const RunStart* start_;             // null: there is nothing to move to
     std::optional<StraightMotion> way_; // to where the path begins, while the machine is on it
-    ProgramReport* report_;
-    MotionRecord* record_;
-    KeptMotion* kept_;
     LiveMachine* live_;
     WaypointError error_;
     PathDeviation deviation_;
@@ -146,10 +138,10 @@ private:
     bool moves_ = false;                      // the axes move at the end of the last segment
     bool late_ = false;                       // the last pull could not wait for input
     std::optional<Clock::time_point> paused_; // since this time there was no input
-    bool held_by_user_ = false;
+    enum class Held : std::uint8_t { no, by_user, by_machine }; // by the machine: the run ends there
+    Held held_ = Held::no;
     UserSuspend suspend_;
     std::optional<Progress> progress_;
-    bool held_by_target_ = false; // held by the target; the run ends there
 };
 
 } // namespace splinefeed::host

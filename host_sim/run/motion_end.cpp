@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds look_slice{1};
 } // namespace
 
 std::string Motion::run(std::optional<std::uint64_t> waypoints) {
-    progress_.emplace(ProgressOptions{.quiet = quiet_ && !progress_alone_, .all = waypoints});
+    progress_.emplace(ProgressOptions{.quiet = asked_.quiet && !asked_.progress, .all = waypoints});
     try {
         execute_all();
     } catch (...) {
@@ -93,7 +93,7 @@ void Motion::require_end() {
     }
     if (path_->activity() == Activity::aborted) {
         stopped_ = "aborted by an event";
-    } else if (path_->activity() == Activity::held && path_->state() == Pull::held && !held_by_target_) {
+    } else if (path_->activity() == Activity::held && path_->state() == Pull::held && held_ != Held::by_machine) {
         stopped_ = "held, and no event resumes it";
     }
     work_.finish();
@@ -120,14 +120,14 @@ void Motion::fail() const {
 // Offsets as the motion has come to them, and where the machine stands. Drives are behind the plan as long as they
 // move.
 void Motion::keep_state() {
-    if (state_ == nullptr) {
+    if (asked_.state == nullptr) {
         return;
     }
     if (steps_.offsets() != nullptr) {
-        state_->offsets(*steps_.offsets());
+        asked_.state->offsets(*steps_.offsets());
     }
     if (segments_ > 0 && (!live_->is_real() || live_->over())) {
-        state_->stands(machine_.position_mm());
+        asked_.state->stands(machine_.position_mm());
     }
 }
 
@@ -139,7 +139,7 @@ void Motion::require_tolerance() {
     if (path_->state() == Pull::finished && stopped_.empty()) {
         deviation_.finish();
     }
-    if (enforce_ && stopped_.empty()) {
+    if (asked_.enforce && stopped_.empty()) {
         stopped_ = excess();
     }
 }
