@@ -4,6 +4,7 @@
 
 What the drives record decides: where their shafts stand at the end, that none moves when nothing was asked for, and that a stop ends on the path.
 """
+import contextlib
 import json
 import math
 import os
@@ -265,15 +266,49 @@ def faults(drives):
     require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
 
 
+@contextlib.contextmanager
+def with_spindle(drives):
+    """The inverter of the machine's spindle."""
+    vfd = Vfd(drives.folder, 2000.0)
+    try:
+        text = pathlib.Path(drives.machine).read_text().replace("[spindle]\n", f'[spindle]\nvfd = "{vfd.address}?profile=vfd-delta-ms300"\n')
+        pathlib.Path(drives.machine).write_text(text)
+        yield vfd
+    finally:
+        vfd.process.kill()
+        vfd.process.wait()
+
+
+def silent_spindle(drives):
+    """An inverter that is silent in the cut: an alarm, and the server's end says that the spindle may still turn, whatever came between."""
+    if why := pymodbus_missing():
+        print(f"silent_spindle is left out: {why}")
+        return
+    with with_spindle(drives) as vfd:
+        for resets in (False, True):
+            sender = unlocked(drives)
+            require(say(sender, b"M3 S6000") == "ok", "M3")
+            sender.send(b"G91 G1 X50 F600\n")
+            underway(sender, 1.0)
+            vfd.process.send_signal(signal.SIGSTOP)
+            await_line(sender, "ALARM:14")
+            sender.until("Alarm")
+            if resets:
+                sender.send(b"\x18")
+                time.sleep(2.5)
+            sender.close()
+            status, told = drives.server.end()
+            require(status == 1 and "the spindle did not confirm that it stands and may still turn" in told, f"exit status {status}: {told}")
+            vfd.process.send_signal(signal.SIGCONT)
+            time.sleep(1.0)
+
+
 def spindle(drives):
     """M3 is answered when the spindle has its speed; a reset and the server's end stop it; M0 and M6 wait for the operator."""
     if why := pymodbus_missing():
         print(f"spindle is left out: {why}")
         return
-    vfd = Vfd(drives.folder, 2000.0)
-    try:
-        text = pathlib.Path(drives.machine).read_text().replace("[spindle]\n", f'[spindle]\nvfd = "{vfd.address}?profile=vfd-delta-ms300"\n')
-        pathlib.Path(drives.machine).write_text(text)
+    with with_spindle(drives) as vfd:
         sender = unlocked(drives)
         begun = time.monotonic()
         require(say(sender, b"M3 S9000") == "ok" and 0.05 < time.monotonic() - begun < 5.0, "M3")
@@ -296,9 +331,6 @@ def spindle(drives):
         drives.end()
         time.sleep(0.3)
         require(vfd.rows()[-1][1] < 1.0, "it turns behind the end")
-    finally:
-        vfd.process.kill()
-        vfd.process.wait()
 
 
 def inputs(drives):
@@ -361,7 +393,7 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, spindle, inputs, others)}
+CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, spindle, silent_spindle, inputs, others)}
 DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 
