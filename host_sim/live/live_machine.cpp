@@ -201,6 +201,8 @@ MachineReading LiveMachine::read() noexcept {
     out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
     sentence_ = known_.sentence;
     out.alarm_sentence = sentence_;
+    note_ = known_.note;
+    out.note = note_;
     return out;
 }
 

@@ -171,6 +171,7 @@ private:
         double speed_mm_s = 0.0;
         RunTarget::Switches switches{};
         std::vector<RunTarget::AxisPlace> places{}; ///< of a run, as the target tells them
+        std::string note{};                         ///< a drive has been silent for a while
     };
     struct Label {
         std::uint64_t line = 0;
@@ -201,6 +202,7 @@ private:
     void fail_by(const std::string& sentence);
     bool look_where(bool at_once);
     void take_place(const FeedSegment& segment);
+    void note_silence(const std::vector<RunTarget::AxisPlace>& places, std::uint64_t now_us);
     void end() noexcept;
     [[nodiscard]] std::string outputs_end();
     void await_planner() noexcept;
@@ -229,7 +231,8 @@ private:
     std::uint32_t unlocked_axes_ = 0; // that stand where they are told to when the operator moves them: the others home
     std::optional<TargetFeed> feed_;
     // Of the planner's thread:
-    std::string sentence_; // of the last reading
+    std::string sentence_; // of the last reading,
+    std::string note_;     // likewise
     bool at_rest_ = true;  // at the end of the last segment,
     bool rests_ = true;    // and rest() was called behind it
     bool offsets_changed_ = false;
@@ -247,6 +250,7 @@ private:
     Phase phase_ = Phase::closed;
     RunOptions options_;
     std::uint64_t looked_us_ = 0;    // where it stands
+    std::uint64_t heard_us_ = 0;     // of all drives
     std::uint64_t seen_ = 0;         // segments that were executed,
     std::uint64_t moved_us_ = 0;     // when that changed
     std::atomic<bool> stalls_{true}; // it has not for a while: the port waits for more, or has not begun

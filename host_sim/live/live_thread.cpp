@@ -275,6 +275,7 @@ bool LiveMachine::look_where(bool at_once) {
     }
     std::vector<RunTarget::AxisPlace> places = target_->places();
     const std::lock_guard lock(mutex_);
+    note_silence(places, now_us);
     if (places.empty()) { // nothing has moved
         return known_.axes == all_axes();
     }
@@ -292,6 +293,18 @@ bool LiveMachine::look_where(bool at_once) {
     known_.axes = at_once ? known_.axes & axes : known_.axes;
     known_.places = std::move(places);
     return axes == all_axes();
+}
+
+// A drive that does not answer may take its port seconds until that is a fault: meanwhile the axes stand.
+void LiveMachine::note_silence(const std::vector<RunTarget::AxisPlace>& places, std::uint64_t now_us) {
+    constexpr std::uint64_t silence_us = 500'000;
+    std::string silent;
+    for (const RunTarget::AxisPlace& at : places) {
+        silent += at.online ? std::string() : (silent.empty() ? "" : ", ") + machine_->axis_name[at.axis];
+    }
+    heard_us_ = silent.empty() ? now_us : heard_us_;
+    const bool says = now_us - heard_us_ > silence_us;
+    known_.note = says ? "No answer from " + silent + ": the axes are held; look at its power and cable" : std::string();
 }
 
 // A spindle that was ended comes to a standstill by its own ramp, and modules confirm what they were told; a further
@@ -323,8 +336,8 @@ void LiveMachine::await_planner() noexcept {
 
 // The axes stand, or are known not to have confirmed it. Drives that were not made ready are left alone.
 void LiveMachine::end() noexcept {
-    const auto add = [this](const std::string& what) {
-        ending_ += what.empty() || ending_.empty() ? what : "; " + what;
+    const auto add = [this](const std::string& what) { // once
+        ending_ += ending_.find(what) != std::string::npos ? "" : ending_.empty() ? what : "; " + what;
     };
     const auto step = [&](const auto& what) {
         try {

@@ -266,6 +266,20 @@ def faults(drives):
     require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
 
 
+def dead_drive(drives):
+    """A drive that dies in motion: a sentence within a second, an alarm, and the end says that it may still move."""
+    sender = unlocked(drives)
+    sender.send(b"G1 X200 Y50 F3000\n")
+    underway(sender, 10.0)
+    drives.drives[1].process.kill()
+    begun = time.monotonic()
+    await_line(sender, "[MSG:No answer from y")
+    require(time.monotonic() - begun < 1.0, f"it is said after {time.monotonic() - begun:.2f} s")
+    await_line(sender, "ALARM:17")
+    status, told = drives.server.end()
+    require(status == 1 and "did not confirm its stop and may still move" in told, f"exit status {status}: {told}")
+
+
 @contextlib.contextmanager
 def with_spindle(drives):
     """The inverter of the machine's spindle."""
@@ -393,7 +407,7 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, spindle, silent_spindle, inputs, others)}
+CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, dead_drive, spindle, silent_spindle, inputs, others)}
 DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 

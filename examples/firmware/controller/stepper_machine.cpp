@@ -86,6 +86,9 @@ MachineReading StepperMachine::read() noexcept {
     out.stands = !has_stopped_ && (stop == Stop::none || stop == Stop::estop) && steps_.stands();
     out.inputs = (inputs_.limit ? all_limits : 0U) | (inputs_.estop ? InputBits::emergency_stop : 0U);
     out.alarm = alarm_;
+    if (alarm_ == Alarm::lines_lost) {
+        out.alarm_sentence = "A byte from the sender was damaged or lost: look at the cable and its rate";
+    }
     out.executes = steps_.active();
     out.waypoint = waypoint_ - static_cast<std::uint8_t>(waypoint_ - steps_.waypoint());
     out.feed_mm_min = Decimal::from_integer(static_cast<std::int32_t>(steps_.feed_mm_min()));

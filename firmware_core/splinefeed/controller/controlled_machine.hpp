@@ -35,6 +35,7 @@ struct MachineReading {
     HomingPhase homing = HomingPhase::none;
     Alarm alarm = Alarm::none;       ///< as long as its cause lasts
     std::string_view alarm_sentence; ///< what the machine says of it; empty: what row_of() says
+    std::string_view note;           ///< what else its operator should know now; empty: nothing
     Decimal feed_mm_min{};           ///< speed along the path
 };
 

@@ -154,6 +154,7 @@ private:
     std::uint32_t line_number_ = 0;
     std::size_t refused_lines_ = 0; // that had come when one was refused
     std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
+    std::size_t noted_ = 0;         // length of the machine's note that was said last
     unsigned lines_left_ = 0;       // that this call may begin
     LineError refusal_ = LineError::none;
     Task task_ = Task::none;

@@ -72,6 +72,12 @@ void Controller::watch() noexcept {
     if (reading_.alarm != Alarm::none && reading_.alarm != alarm_) {
         raise(reading_.alarm, reading_.alarm_sentence);
     }
+    if (reading_.note.size() != noted_) {
+        noted_ = reading_.note.size();
+        if (noted_ > 0) {
+            say(reading_.note);
+        }
+    }
     if (jogging_ && settings_->jog_timeout_ms > 0 && now_ms_ - byte_ms_ > settings_->jog_timeout_ms) {
         cancel_jog();
     }

@@ -87,7 +87,11 @@ private:
     }
     [[nodiscard]] std::string halted(bool quick) const override { return stop_sentence(stopped(), quick); }
     [[nodiscard]] std::string finish() override {
-        return machine_->drives_on_at_end.value_or(true) ? std::string() : switch_off();
+        if (!machine_->drives_on_at_end.value_or(true)) {
+            return switch_off();
+        }
+        const std::string moving = unconfirmed_drives(stopped());
+        return moving.empty() ? moving : moving.substr(2);
     }
     [[nodiscard]] std::string switch_off() override {
         port_.power_off();
