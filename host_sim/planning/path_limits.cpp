@@ -9,7 +9,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double tolerance_mm = 1e-6;
 constexpr double counter_limit = 2147483647.0;
 constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
 
@@ -40,7 +39,7 @@ std::optional<std::string> PathLimits::violation(const CurveSegment<double>& seg
         for (unsigned i = 0; i <= degree; ++i) {
             points[i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
         }
-        const Extent<double> limits{axis.low - tolerance_mm, axis.high + tolerance_mm};
+        const Extent<double> limits{axis.low - travel_allowance_mm, axis.high + travel_allowance_mm};
         const Extent<double> found = extent_beyond(points, segment.degree, limits, slack_mm);
         if (limits.contains(found)) {
             continue;

@@ -13,6 +13,12 @@ struct AxisTravel {
     bool limited = false;
     Decimal low{};
     Decimal high{};
+
+    /// Of travel_allowance_mm.
+    static constexpr Decimal allowance{static_cast<std::int64_t>(travel_allowance_mm * static_cast<double>(Decimal::one) + 0.5)};
+    [[nodiscard]] constexpr bool holds(Decimal at) const noexcept {
+        return !limited || (at <= high + allowance && at >= low - allowance);
+    }
 };
 
 /// Of an axis, for `$` queries alone.

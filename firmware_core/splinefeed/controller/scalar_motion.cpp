@@ -129,9 +129,7 @@ void ScalarMotion<S>::take_move() noexcept {
 template <Scalar S>
 bool ScalarMotion<S>::leaves_travel(const PerAxis<Position>& place) const noexcept {
     for (const unsigned k : indices(limits_->axes)) {
-        const AxisTravel& travel = settings_->travel[k];
-        const Decimal at = to_decimal(place[k]);
-        if (travel.limited && (at > travel.high + travel_allowance || at < travel.low - travel_allowance)) {
+        if (!settings_->travel[k].holds(to_decimal(place[k]))) {
             return true;
         }
     }

@@ -16,8 +16,8 @@ bool TravelGuard<S>::leaves(const CurveSegment<S>& segment) const noexcept {
         const int unit = segment.unit_log2;
         // No point of a segment is as far away; where it is short, an end of travel is further than a number goes.
         const S far = literal<S>(1e6);
-        const S low = distance<S>(segment.origin[k], to_position(travel.low - travel_allowance), unit);
-        const S high = distance<S>(segment.origin[k], to_position(travel.high + travel_allowance), unit);
+        const S low = distance<S>(segment.origin[k], to_position(travel.low - AxisTravel::allowance), unit);
+        const S high = distance<S>(segment.origin[k], to_position(travel.high + AxisTravel::allowance), unit);
         const Extent<S> allowed{larger(low, -far), smaller(high, far)};
         const S slack = scale2(literal<S>(1e-6), -unit);
         if (!allowed.contains(extent_beyond(segment.control[k], segment.degree, allowed, slack))) {

@@ -7,11 +7,8 @@
 
 namespace splinefeed {
 
-/// Moves may leave the travel by so much, as a path may leave its moves [mm].
-inline constexpr Decimal travel_allowance{Decimal::one / 1000};
-
-/// A segment may leave the travel by travel_allowance. Cost: a comparison for each Bezier
-/// point; near the end of travel a segment is halved until it is decided.
+/// The same law as that of a run (travel_allowance_mm). Cost: a comparison for each Bezier point; near the end of travel
+/// a segment is halved until it is decided.
 template <Scalar S>
 class TravelGuard final : public CurveSource<S> {
 public:

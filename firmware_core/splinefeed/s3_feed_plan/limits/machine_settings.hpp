@@ -8,6 +8,9 @@
 
 namespace splinefeed {
 
+/// A path that leaves the travel by no more than this keeps it: what arcs and inches are rounded to. [mm]
+inline constexpr double travel_allowance_mm = 1e-6;
+
 /// One axis, as the machine file states it.
 struct AxisSettings {
     double max_velocity_mm_s = 100.0;
