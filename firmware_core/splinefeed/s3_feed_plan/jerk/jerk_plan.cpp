@@ -215,6 +215,9 @@ Steered JerkPlan<S, R>::steer(const PlanState<S>& place, UnderrunPolicy underrun
     if (line_.done() && (left < least_part || left * length_mm < JerkWindow<S, R>::shortest_mm)) {
         return Steered::unchanged; // it is tried again with the next profile segment
     }
+    if (!changing_) {
+        plan_.cancel(); // a plan that was begun ahead has the scratch that the change needs
+    }
     const SpeedState state = state_on(profile_segment_, length_mm, from, to_double(place.time_share));
     switch (answer(from, state, underrun, work)) {
     case Search::running: return Steered::busy;
