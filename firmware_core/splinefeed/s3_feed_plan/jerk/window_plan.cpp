@@ -74,7 +74,7 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
 }
 
 // How much of a leg of so many cells from `first` on, which ends with the window, is final: to about the middle, where
-// it brakes least.
+// it brakes least, and so that a leg is left behind it; one cell at least.
 template <Scalar S, Floating R>
 std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
     const auto part = [cells](unsigned per_cent) {
@@ -93,7 +93,7 @@ std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) 
             break;
         }
     }
-    return smaller(best, cells - 3);
+    return larger<std::size_t>(1, smaller(best, cells - LegPlan<R>::fewest_cells));
 }
 
 // Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
@@ -102,6 +102,7 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
     const std::size_t half = first_ + (window_->size() - first_ + 1) / 2;
     State after = State::complete;
     while (at_ < window_->size() && (at_ == first_ || at_ < half)) {
+        const std::size_t before = at_;
         std::size_t end = at_ + 1;
         while (end < window_->size() && !window_->cell(end - 1).stop_at_end) {
             ++end;
@@ -141,6 +142,7 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
             after = State::goes_on;
             break;
         }
+        SPLINEFEED_ASSERT(at_ > before);
     }
     committed_ = at_;
     state_ = after;
