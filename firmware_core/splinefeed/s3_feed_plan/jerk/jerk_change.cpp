@@ -11,6 +11,7 @@
 // higher speed the caps are what is wanted.
 #include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
@@ -143,6 +144,7 @@ void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& v
             }
             piece = left - piece < larger(least, sliver * piece) ? left : piece;
             const double to = piece < left ? from + piece / length : 1.0;
+            SPLINEFEED_ASSERT(to > from);
             if (!visit(i, from, to, at_mm)) {
                 return;
             }
@@ -376,11 +378,13 @@ Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
             cancel();
             return Search::found;
         }
+        const std::size_t before = attempts_;
         if (rests_) {
             attempt_rest(work);
         } else {
             attempt_wanted(work);
         }
+        SPLINEFEED_ASSERT(attempts_ > before || !running());
     }
     return Search::none;
 }
