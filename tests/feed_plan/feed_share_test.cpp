@@ -3,6 +3,9 @@
 // The feed counts the linear axes; rotary ones follow within limits of their own.
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
+
 #include "support/catch.hpp"
 #include "support/emitted.hpp"
 #include "support/plan_reference.hpp"
@@ -62,6 +65,40 @@ TEMPLATE_TEST_CASE("programmed feeds count the linear axes", "[feed_plan][rotary
     const auto planned = plan_of<TestType>(path, machine, 1U << 14);
     const double least = trapezoid_seconds(30.0, 10.0, 1800.0) + trapezoid_seconds(60.0, 30.0, 3600.0);
     CHECK(planned.seconds() == Approx(least).epsilon(0.005));
+}
+
+// One place decides what is linear: a turn with the rounding of a post in x takes neither hours nor no time.
+TEMPLATE_TEST_CASE("a turn beside which a linear axis hardly moves has the feed of that axis", "[feed_plan][rotary]",
+                   double, float, Fixed) {
+    using S = TestType;
+    const MachineSettings machine = rotary_machine(100.0);
+    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto seconds = [&](double x, double feed) {
+        TolerancePath<S> path(3, rules_cast<S>(path_rules(machine)));
+        REQUIRE(path.start({}).ok());
+        PathElement<S> element;
+        element.to = {position_from_mm(x), {}, position_from_mm(100.0)};
+        element.tolerance_mm = literal<S>(0.1);
+        element.feed_mm_s = from_double<S>(feed);
+        REQUIRE(path.push(element).ok());
+        REQUIRE(path.finish().ok());
+        AnyTrajectory<S> any(path, limits, 64);
+        FeedSegment segment;
+        std::uint64_t ticks = 0;
+        while (any.trajectory().next(segment) == Pull::item && ticks < 1'000'000'000) {
+            ticks += segment.duration_ticks;
+        }
+        return static_cast<double>(ticks) / 8e6;
+    };
+    for (double x = 1.0; x > 1e-7; x *= 0.7) {
+        CAPTURE(x);
+        // With float up to half of a small feed is kept for rounding.
+        const double least = trapezoid_seconds(100.0, 50.0, 3600.0);
+        CHECK(seconds(x, x / 2.0) > 0.99 * least);
+        CHECK(seconds(x, x / 2.0) < (std::same_as<S, float> ? 2.0 : 1.01) * least);
+        CHECK(seconds(x, 10.0) == Approx(trapezoid_seconds(100.0, 360.0, 3600.0)).epsilon(0.03));
+    }
+    CHECK(seconds(0.0, 50.0) == Approx(trapezoid_seconds(100.0, 50.0, 3600.0)).epsilon(0.02));
 }
 
 TEST_CASE("a machine whose axes are all rotary feeds in degrees a second", "[feed_plan][rotary]") {

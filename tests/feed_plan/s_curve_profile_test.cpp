@@ -6,6 +6,8 @@
 #include "support/bezier_paths.hpp"
 #include "support/catch.hpp"
 
+#include <limits>
+
 using namespace splinefeed;
 using namespace splinefeed_test;
 
@@ -101,6 +103,8 @@ TEST_CASE("two thirds of a power", "[feed_plan][jerk]") {
         const double x = random.decades(1e-30, 1e30);
         REQUIRE(std::fabs(power_two_thirds(x) / std::cbrt(x * x) - 1.0) <= 1e-14);
     }
+    CHECK(power_two_thirds(largest<double>()) > 1e205);
+    CHECK(power_two_thirds(std::numeric_limits<double>::infinity()) == std::numeric_limits<double>::infinity());
 }
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any lines, in any dialect, with and without expressions: the interpreter takes or refuses each without harm, a
 // refused line changes nothing, a block ends after a bounded number of items, moves join, and stay in the machine's
-// range.
+// range. So it is, too, where refused lines are obeyed, to find further errors.
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s0_program/spline_points.hpp"
@@ -71,7 +71,7 @@ void check_text(const ProgramEvent& event, const std::string& line) {
 }
 
 template <Scalar S>
-void run(std::string_view text, const ProgramSettings& settings, bool evaluates) {
+void run(std::string_view text, const ProgramSettings& settings, bool evaluates, bool obeys) {
     constexpr int most_items = 400'000; // of pecks and repeats; more would only take time
     Table table;
     Expression expression(table);
@@ -91,7 +91,6 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
         const ModalState modal = interpreter.modal();
         std::vector<char> given(line.begin(), line.end()); // freed behind the call: nothing may refer to it then
         const BlockStatus status = interpreter.push({given.data(), given.size()}, ++number);
-        given = {};
         if (!status.ok()) {
             if (status.column > line.size() + 1 || describe(status.error) == std::string("unknown error")) {
                 fail("a place or an error that is none", line);
@@ -100,8 +99,13 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
                 interpreter.position() != stands) {
                 fail("a refused line changed something", line);
             }
+            if (obeys) {
+                interpreter.obey_refused();
+                at = stands = interpreter.position();
+            }
             continue;
         }
+        given = {};
         Pull pull = Pull::item;
         while ((pull = interpreter.next(item)) == Pull::item && ++items < most_items) {
             if (item.kind == ItemKind::event) {
@@ -153,10 +157,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     settings.tools = (choice & 8U) != 0 ? &tools : nullptr;
     const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.left);
     const bool evaluates = (choice & 16U) == 0;
-    if ((choice & 32U) != 0) {
-        run<Fixed>(text, settings, evaluates);
-    } else {
-        run<double>(text, settings, evaluates);
+    for (const bool obeys : {false, true}) {
+        if ((choice & 32U) != 0) {
+            run<Fixed>(text, settings, evaluates, obeys);
+        } else {
+            run<double>(text, settings, evaluates, obeys);
+        }
     }
     return 0;
 }

@@ -59,6 +59,7 @@ TEST_CASE("a feed plan that knows rotary axes gets F", "[program][interpreter]")
     CHECK(feed("G91 X3 A4") == Approx(10.0));
     CHECK(feed("B3 C4") == Approx(10.0));
     CHECK(feed("G93 X3 A4 F60") == Approx(3.0));
+    CHECK(feed("X0.0005 A100 F60") == Approx(0.0005)); // a slower one than the slowest F
     CHECK(feed("A30 F60") == Approx(30.0));
 }
 

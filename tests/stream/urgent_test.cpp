@@ -129,6 +129,34 @@ TEST_CASE("a plan with jerk that is made ahead is there when the motion needs it
     CHECK(10 * busy[1] < busy[0]);
 }
 
+TEMPLATE_TEST_CASE("a change of the steering ends the search of a plan that is made ahead", "[stream][urgent][jerk]",
+                   DoubleInDouble, FixedInDouble, FixedInFloat) {
+    using S = typename TestType::S;
+    using R = typename TestType::R;
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 3.0);
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_jerk_mm_s3 = 30'000.0;
+    }
+    const auto limits = MotionLimits<S>::make(machine).value();
+    Random random(seed);
+    const BezierPath path = random_path(random, 2, 6, 0.1, 0.0, 0.0);
+    for (std::size_t every = 2; every < 30; ++every) { // segments between two changes
+        ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+        AnyTrajectory<S, R> any(source, limits, every % 2 == 0 ? 16 : 48);
+        SteeredRun run;
+        FeedSegment segment;
+        while (any.trajectory().next(segment) == Pull::item) {
+            run.segments.push_back(segment);
+            const bool slow = run.segments.size() / every % 2 == 1;
+            any.trajectory().override_feed(from_double<S>(slow ? 0.1 : 1.0));
+            static_cast<void>(any.trajectory().plan_ahead(10));
+        }
+        CAPTURE(every);
+        REQUIRE(any.trajectory().state() == Pull::finished);
+        require_limits(run, machine);
+    }
+}
+
 // The front cell may have left its K behind where the next one has a new one: the longer the pass takes, the more such
 // places are met. Calls with little work take it through all of them.
 TEST_CASE("the old plan and a new one that has come to the second cell do not mix", "[stream][urgent]") {

@@ -49,6 +49,7 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
     words.peck = block.has('q') ? modal.in_mm(block.value('q')) : words.peck;
     dwell_s_ = words.dwell_s;
     peck_ = words.peck;
+    words.motion = code_;
     return {};
 }
 
@@ -63,7 +64,8 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
         }
     }
     code_ = modal.motion;
-    if (const BlockStatus status = read_words(block, modal, before.motion != code_, normal, words); !status.ok()) {
+    const bool fresh = before.motion != code_ || words.motion != code_; // a refused cycle has the mode, but no words
+    if (const BlockStatus status = read_words(block, modal, fresh, normal, words); !status.ok()) {
         return status;
     }
     const auto n = static_cast<unsigned>(axes_[2]);

@@ -36,8 +36,9 @@ struct CycleWords {
     Decimal clearance{}; ///< R
     Decimal dwell_s{};
     Decimal peck{};
-    bool begun = false; ///< one cycle of the series has been made
-    Decimal initial{};  ///< where the axis stood before the first one
+    std::int16_t motion = ModalState::no_motion; ///< the cycle that they are complete for
+    bool begun = false;                          ///< one cycle of the series has been made
+    Decimal initial{};                           ///< where the axis stood before the first one
 };
 
 /// The moves are those of the RS274/NGC report with LinuxCNC's levels. First comes a rapid to R if the series began

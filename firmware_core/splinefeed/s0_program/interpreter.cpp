@@ -341,7 +341,8 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     S total = norm(parts, 2);
     total = total > S{} ? total : norm(left_by_plan, max_axes);
     if (how.inverse_time) {
-        return clamped(product_up_to(total, per_second, literal<S>(fastest_mm_s)));
+        // Its part in the linear axes may be tiny; 0 would be the machine's feed.
+        return larger(product_up_to(total, per_second, literal<S>(fastest_mm_s)), literal<S>(0x1p-32));
     }
     const S counted = space ? in_space : in_second > S{} ? in_second : in_rotary > S{} ? in_rotary : in_extruder;
     return clamped(product_up_to(quotient_or_max(total, counted), clamped(per_second), literal<S>(fastest_mm_s)));

@@ -129,6 +129,7 @@ Status BlendedPath<S>::push(const PathElement<S>& element, std::uint32_t index) 
     fresh.tolerance = fresh.tolerance_at_end = tolerance;
     fresh.feed_mm_s = element.feed_mm_s;
     fresh.max_feed_mm_s = element.max_feed_mm_s;
+    fresh.feed_along_path = element.feed_along_path;
     fresh.mode = element.mode;
     fresh.stop_at_end = stops;
     fresh.joined = element.joined;
@@ -217,6 +218,7 @@ void BlendedPath<S>::describe(const Entry& of, int degree, CurveSegment<S>& out)
     out.degree = degree;
     out.feed_mm_s = of.feed_mm_s;
     out.max_feed_mm_s = of.max_feed_mm_s;
+    out.feed_along_path = of.feed_along_path;
     out.stop_at_end = false;
     out.waypoint = entry(next_).index;
 }
@@ -313,7 +315,8 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
         for (const unsigned k : indices(axes_)) {
             points[k][0] = distance<S>(vertex[k], here_[k], chord_unit_log2);
         }
-        if (present.feed_mm_s != behind.feed_mm_s || present.max_feed_mm_s != behind.max_feed_mm_s) {
+        if (present.feed_mm_s != behind.feed_mm_s || present.max_feed_mm_s != behind.max_feed_mm_s ||
+            present.feed_along_path != behind.feed_along_path) {
             halve(points, blend_.points, blend_.degree, axes_);
             stage_ = Stage::second_half;
             last = false;

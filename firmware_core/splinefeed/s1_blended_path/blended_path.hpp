@@ -66,6 +66,7 @@ private:
         S left_out{};         // how far moves behind it went that were too short to be any
         S feed_mm_s{};
         S max_feed_mm_s{};
+        bool feed_along_path = false;
         PathMode mode = PathMode::continuous;
         bool stop_at_end = false;
         bool joined = false;

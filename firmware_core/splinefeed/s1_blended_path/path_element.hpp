@@ -46,9 +46,13 @@ struct PathElement {
     S chain_tolerance_mm = from_integer<S>(100);
     S feed_mm_s{};     ///< programmed feed; 0: the machine's; or rapid_feed
     S max_feed_mm_s{}; ///< upper limit for every feed override; 0: none
+    /// Both feeds count all axes; else the linear ones if any of them moves, else the rotary ones. TolerancePath sets
+    /// it.
+    bool feed_along_path = false;
 
     [[nodiscard]] bool has_feed_of(const PathElement& other) const noexcept {
-        return feed_mm_s == other.feed_mm_s && max_feed_mm_s == other.max_feed_mm_s;
+        return feed_mm_s == other.feed_mm_s && max_feed_mm_s == other.max_feed_mm_s &&
+               feed_along_path == other.feed_along_path;
     }
     /// Whether its end may be rounded.
     [[nodiscard]] bool passes_end() const noexcept { return mode == PathMode::continuous && !stop_at_end; }

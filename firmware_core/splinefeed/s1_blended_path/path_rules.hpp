@@ -2,6 +2,7 @@
 // PathRules: what a path within a tolerance has to know of the machine that travels it.
 #pragma once
 
+#include "splinefeed/base/capacity.hpp"
 #include "splinefeed/number/scalar.hpp"
 
 namespace splinefeed {
@@ -25,6 +26,7 @@ struct PathRules {
     bool rounds_curvature = true; ///< false: joints where only the curvature jumps stay
     int chain_quarters = 4; ///< quarters of a move's tolerance that chains of short lines get, where the program does
                             ///< not say it
+    PerAxis<bool> rotary{}; ///< axes that the feed does not count where others move
 };
 
 /// The same in another scalar.
@@ -35,7 +37,8 @@ template <Scalar S>
         from_double<S>(rules.joint_tolerance_mm),
         {from_double<S>(sharpest.curvature_1_mm), from_double<S>(sharpest.fading), from_double<S>(sharpest.half_sine)},
         rules.rounds_curvature,
-        rules.chain_quarters};
+        rules.chain_quarters,
+        rules.rotary};
 }
 
 } // namespace splinefeed

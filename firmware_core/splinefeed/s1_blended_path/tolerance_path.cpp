@@ -2,6 +2,7 @@
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
 #include "splinefeed/number/instantiate.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -13,6 +14,10 @@ constexpr S inside(S tolerance_mm) noexcept {
     return tolerance_mm - scale2(tolerance_mm, -14);
 }
 
+// Of the path. Directions of a cell tell this share to five digits. feed_share() decides at a smaller one, so it never
+// decides otherwise than here.
+constexpr int least_share_log2 = -12;
+
 } // namespace
 
 template <Scalar S>
@@ -23,6 +28,30 @@ Status TolerancePath<S>::start(const PerAxis<Position>& position) noexcept {
         chains_.start(position);
     }
     return status;
+}
+
+// Where the linear axes move by a tiny part of a line, their feed is that part of the feed along the path. From the
+// ends of the move it is known to more digits than from its cells.
+template <Scalar S>
+void TolerancePath<S>::feed_along_path(PathElement<S>& element) const noexcept {
+    PerAxis<S> linear{};
+    PerAxis<S> all{};
+    for (const unsigned k : indices(axes_)) {
+        all[k] = distance<S>(last_[k], element.to[k], chord_unit_log2);
+        linear[k] = rotary_[k] ? S{} : all[k];
+    }
+    const S counted = norm(linear, axes_);
+    const S way = norm(all, axes_);
+    element.feed_along_path = element.shape == MoveShape::line && counted > S{} && !(element.feed_mm_s < S{}) &&
+                              counted < scale2(way, least_share_log2);
+    if (element.feed_along_path) {
+        const S ratio = quotient_or_max(way, counted);
+        for (S* const feed : {&element.feed_mm_s, &element.max_feed_mm_s}) {
+            const S most = literal<S>(0x1p24); // faster than any machine
+            *feed = *feed > quotient_or_max(most, ratio) ? most : *feed * ratio;
+        }
+        element.chain_tolerance_mm = S{}; // of a chain the share is another
+    }
 }
 
 template <Scalar S>
@@ -38,10 +67,11 @@ Status TolerancePath<S>::push(const PathElement<S>& element) noexcept {
         return length.error();
     }
     moves_ = moves_ || length.value() > S{};
-    last_ = element.to;
     PathElement<S> kept = element;
+    feed_along_path(kept);
+    last_ = element.to;
     kept.tolerance_mm = inside(element.tolerance_mm);
-    kept.chain_tolerance_mm = inside(element.chain_tolerance_mm);
+    kept.chain_tolerance_mm = inside(kept.chain_tolerance_mm);
     chains_.push(kept, static_cast<std::uint32_t>(counts_.moves++));
     while (pass_on()) {
     }

@@ -35,6 +35,7 @@ struct CurveSegment {
     PerAxis<PerDegree<S>> control{}; ///< control[axis][i], offset of Bezier point i from origin
     S feed_mm_s{};                   ///< programmed feed; 0: the machine's feed; or rapid_feed
     S max_feed_mm_s{};               ///< upper limit for every feed override; 0: none
+    bool feed_along_path = false;    ///< both feeds count all axes
     bool stop_at_end = false;        ///< the feed is zero at the end (a corner)
     std::uint32_t waypoint = 0;      ///< index of the waypoint at its end (or index of the segment in a file), modulo
                                      ///< 2^32

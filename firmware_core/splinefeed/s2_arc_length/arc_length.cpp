@@ -140,6 +140,7 @@ void ArcLength<S>::fill_common(bool at_end, Cell<S>& out) noexcept {
     out.unit_log2 = segment.unit_log2;
     out.feed_mm_s = segment.feed_mm_s;
     out.max_feed_mm_s = segment.max_feed_mm_s;
+    out.feed_along_path = segment.feed_along_path;
     out.waypoint = segment.waypoint;
     out.stop_at_end = at_end && stop_after_;
     out.end = segment.end;

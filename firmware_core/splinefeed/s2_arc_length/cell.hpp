@@ -48,11 +48,12 @@ struct Cell {
     PerAxis<Ratio<S>> tangent_max{}; ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{};      ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
-    S feed_mm_s{};            ///< programmed feed; 0: the machine's feed; or rapid_feed
-    S max_feed_mm_s{};        ///< upper limit for every feed override; 0: none
-    S steady_mm_s{};          ///< largest speed at which rounding at the cell's ends causes no jump above
-                              ///< Refinement::jump_mm_s
-    bool stop_before = false; ///< a cusp lies before this cell: the cell before has to end at standstill
+    S feed_mm_s{};                ///< programmed feed; 0: the machine's feed; or rapid_feed
+    S max_feed_mm_s{};            ///< upper limit for every feed override; 0: none
+    S steady_mm_s{};              ///< largest speed at which rounding at the cell's ends causes no jump above
+                                  ///< Refinement::jump_mm_s
+    bool feed_along_path = false; ///< both feeds count all axes
+    bool stop_before = false;     ///< a cusp lies before this cell: the cell before has to end at standstill
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;
 

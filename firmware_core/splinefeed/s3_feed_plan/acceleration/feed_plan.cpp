@@ -28,6 +28,7 @@
 // for the pass. A cell that no pass has visited yet has K = 0, so the old plan ends at standstill before it.
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
@@ -119,6 +120,7 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         profile_segment_.stops =
             profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1 || !(window_.at(1).entry_sq > S{});
     }
+    SPLINEFEED_ASSERT(stretch.from < stretch.to || rest_to_rest_); // the machine comes on
 }
 
 // The exit nearest to the wanted one from the start of the front cell.

@@ -12,8 +12,8 @@ namespace splinefeed {
 template <Scalar S>
 S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
     // The block's own maximum limits the feed, whatever is programmed and overridden.
-    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
-                                            : limits_.feed_mm_s;
+    const S fastest = fastest_feed(cell);
+    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), fastest) : fastest;
     S speed = path_speed(cell, most);
     for (const unsigned k : indices(limits_.axes)) {
         const S velocity = axis_velocity(cell, limits_, k);
@@ -49,9 +49,15 @@ S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
 }
 
 template <Scalar S>
+S SpeedCaps<S>::fastest_feed(const Cell<S>& cell) const noexcept {
+    return cell.feed_along_path ? limits_.path_mm_s : limits_.feed_mm_s;
+}
+
+template <Scalar S>
 S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept {
     const S programmed = cell.feed_mm_s;
-    S feed = limits_.feed_mm_s;
+    const S fastest = fastest_feed(cell);
+    S feed = fastest;
     if (programmed < S{}) { // a rapid
         const S slower = larger(cap_sq * (wish.rapids * wish.rapids), literal<S>(slowest_sq));
         cap_sq = wish.rapids < from_integer<S>(1) ? slower : cap_sq;
@@ -61,7 +67,7 @@ S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish
     if (wish.most_mm_s < feed && feed_is_linear(cell, limits_)) {
         feed = limits_.usable_feed(wish.most_mm_s);
     }
-    if (!(feed < limits_.feed_mm_s)) {
+    if (!(feed < fastest)) {
         return cap_sq;
     }
     const S speed = path_speed(cell, feed);
@@ -71,7 +77,7 @@ S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish
 template <Scalar S>
 S SpeedCaps<S>::programmed_sq(const Cell<S>& cell) const noexcept {
     const S programmed = cell.feed_mm_s;
-    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : limits_.feed_mm_s);
+    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : fastest_feed(cell));
     return speed * speed;
 }
 

@@ -28,6 +28,7 @@ public:
     [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
 
 private:
+    [[nodiscard]] S fastest_feed(const Cell<S>& cell) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
 
     const MotionLimits<S>& limits_;

@@ -11,6 +11,7 @@
 // higher speed the caps are what is wanted.
 #include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
@@ -35,21 +36,26 @@ constexpr double left_to_brake = 2.0;       // times the speed's square that a n
 constexpr double farther[] = {1.03, 1.06, 1.1, 1.2, 1.4, 1.8, 2.5, 4.0, 8.0}; // than the place that braking tells
 constexpr double roomy = 1.5; // of what braking needs, if it need not be the least
 constexpr int most_steps = 40;
+constexpr double no_start_mm = 1e9; // before the machine, within reach
 
 } // namespace
 
 template <Scalar S, Floating R>
-JerkChange<S, R>::JerkChange(JerkWindow<S, R>& window, double from, const SpeedState& state,
-                             std::size_t planned) noexcept
-    : window_(&window), leg_(window.leg()), from_(from), state_(state), old_planned_(planned),
-      along_(window.limits_of(0).move_limits(
-          smaller(window.node(0).cap_sq, larger(static_cast<R>(state.b), window.node(0).wanted_sq)))) {
-    if (state.slope > 0.0) {
-        start_mm_ = 4.0 / 3.0 * state.b / state.slope;
-    }
-    for (std::size_t i = 0; i < window.size(); ++i) {
-        known_mm_ += to_double(window.node(i).length_mm) * (i == 0 ? 1.0 - from : 1.0);
-        if (window.cell(i).stop_at_end) {
+void JerkChange<S, R>::begin(double from, const SpeedState& state, std::size_t planned) noexcept {
+    leg_.take();
+    from_ = from;
+    state_ = state;
+    old_planned_ = planned;
+    changed_ = 1;
+    attempts_ = 0;
+    const JerkNode<R>& front = window_->node(0);
+    const R here_sq = static_cast<R>(state.b);
+    along_ = window_->limits_of(0).move_limits(smaller(front.cap_sq, larger(here_sq, front.wanted_sq)));
+    start_mm_ = state.slope > 0.0 ? 4.0 / 3.0 * state.b / state.slope : no_start_mm;
+    known_mm_ = 0.0;
+    for (std::size_t i = 0; i < window_->size(); ++i) {
+        known_mm_ += to_double(window_->node(i).length_mm) * (i == 0 ? 1.0 - from : 1.0);
+        if (window_->cell(i).stop_at_end) {
             break;
         }
     }
@@ -138,6 +144,7 @@ void JerkChange<S, R>::each_piece(const Cuts& cuts, std::size_t first, Visit&& v
             }
             piece = left - piece < larger(least, sliver * piece) ? left : piece;
             const double to = piece < left ? from + piece / length : 1.0;
+            SPLINEFEED_ASSERT(to > from);
             if (!visit(i, from, to, at_mm)) {
                 return;
             }
@@ -177,29 +184,29 @@ bool JerkChange<S, R>::lay(WorkBudget& work, bool wanted) noexcept {
     }
     const double least = least_mm(cuts_);
     bool known = true; // up to here the old plan has a motion
-    leg_.begin(state_);
+    leg_->begin(state_);
     each_piece(cuts_, 0, [&](std::size_t i, double from, double to, double at_mm) {
         if (at_mm >= cuts_.end_mm - least) {
             return false;
         }
         const JerkNode<R>& whole = window_->node(i);
         const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        leg_.add(window_->limits_of(part, wanted ? whole.wanted_sq : whole.cap_sq),
-                 whole.at_most_sq + static_cast<R>(to) * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
+        leg_->add(window_->limits_of(part, wanted ? whole.wanted_sq : whole.cap_sq),
+                  whole.at_most_sq + static_cast<R>(to) * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
         known = known && knows(i);
         if (known) {
             const SpeedState state = known_state(i, from);
-            leg_.know(static_cast<R>(state.b + 0.5 * state.slope * (to - from) * to_double(whole.length_mm)));
+            leg_->know(static_cast<R>(state.b + 0.5 * state.slope * (to - from) * to_double(whole.length_mm)));
         }
         return true;
     });
-    return leg_.cells() >= LegPlan<R>::fewest_cells;
+    return leg_->cells() >= LegPlan<R>::fewest_cells;
 }
 
 // Splits the cells of the window, and gives them the motion of the leg.
 template <Scalar S, Floating R>
 void JerkChange<S, R>::adopt() noexcept {
-    planned_ = leg_.cells();
+    planned_ = leg_->cells();
     const std::size_t more = pieces_ - cells_;
     window_->open(0, more); // no piece comes after the present place of its cell
     Cell<S> whole;
@@ -222,7 +229,7 @@ void JerkChange<S, R>::adopt() noexcept {
         ++n;
         return true;
     });
-    leg_.each_cell([&](std::size_t i, double b, double middle_sq) {
+    leg_->each_cell([&](std::size_t i, double b, double middle_sq) {
         window_->node(i).b = b;
         window_->node(i).middle_sq = middle_sq;
     });
@@ -235,12 +242,12 @@ void JerkChange<S, R>::adopt() noexcept {
 template <Scalar S, Floating R>
 void JerkChange<S, R>::brake(WorkBudget& work) noexcept {
     if (lay(work, false)) {
-        leg_.brake();
+        leg_->brake();
         stage_ = Stage::brake;
     } else if (rests_) {
         attempt_rest(work);
     } else {
-        stage_ = Stage::none;
+        cancel();
     }
 }
 
@@ -251,10 +258,10 @@ double JerkChange<S, R>::nearest_rest_mm() const noexcept {
     const R per = R(1) / power_two_thirds(static_cast<R>(4.5 * along_.jerk_mm_s3));
     auto nearest = largest<R>();
     R at_mm{};
-    for (std::size_t i = 1; i + 1 < leg_.cells(); ++i) {
-        at_mm += leg_.length_mm(i - 1);
-        if (leg_.b(i) < larger(slow * slow, R(slow_part) * leg_.b(0))) {
-            const R root = detail::hardware_square_root(R(left_to_brake) * leg_.b(i) * per);
+    for (std::size_t i = 1; i + 1 < leg_->cells(); ++i) {
+        at_mm += leg_->length_mm(i - 1);
+        if (leg_->b(i) < larger(slow * slow, R(slow_part) * leg_->b(0))) {
+            const R root = detail::hardware_square_root(R(left_to_brake) * leg_->b(i) * per);
             nearest = smaller(nearest, at_mm + root * detail::hardware_square_root(root));
         }
     }
@@ -276,14 +283,14 @@ void JerkChange<S, R>::attempt_rest(WorkBudget& work) noexcept {
         cuts_ = {end_mm, end_mm + guess_mm_, longest, larger(longest * next_to_rest, JerkWindow<S, R>::shortest_mm),
                  second ? far_behind : part_behind};
         if (lay(work, false)) {
-            leg_.search();
+            leg_->search();
             stage_ = Stage::attempt;
             ++attempts_;
             return;
         }
         fits_ = false;
     }
-    stage_ = Stage::none;
+    cancel();
 }
 
 // First with the caps that are wanted, if the machine is not faster; then with a motion that brakes.
@@ -298,13 +305,13 @@ void JerkChange<S, R>::attempt_wanted(WorkBudget& work) noexcept {
     cuts_ = {smaller(ramp + stop, known_mm_), ramp, longest, longest, part_behind};
     ++attempts_;
     if (attempts_ == 1 && state_.b <= wanted_sq && lay(work, true)) {
-        leg_.search();
+        leg_->search();
         stage_ = Stage::attempt;
     } else if (attempts_ <= 2) {
         attempts_ = 2;
         brake(work);
     } else {
-        stage_ = Stage::none;
+        cancel();
     }
 }
 
@@ -316,8 +323,8 @@ void JerkChange<S, R>::follow_braking() noexcept {
     R before{};
     R here{};
     const auto cap = [&](R next) { // of piece n - 1, between its neighbours
-        changed_ = leg_.middle_sq(n - 1) > here ? n : changed_;
-        leg_.cap(n - 1, smaller(smaller(before, here), next));
+        changed_ = leg_->middle_sq(n - 1) > here ? n : changed_;
+        leg_->cap(n - 1, smaller(smaller(before, here), next));
         before = here;
         here = next;
     };
@@ -328,10 +335,10 @@ void JerkChange<S, R>::follow_braking() noexcept {
         } else {
             cap(wanted_sq);
         }
-        return ++n < leg_.cells();
+        return ++n < leg_->cells();
     });
     cap(here);
-    leg_.search();
+    leg_->search();
     stage_ = Stage::attempt;
 }
 
@@ -352,11 +359,11 @@ void JerkChange<S, R>::to_wanted(WorkBudget& work) noexcept {
 
 template <Scalar S, Floating R>
 Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
-    while (stage_ != Stage::none) {
-        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+    while (running()) {
+        if (!work.take(static_cast<unsigned>(leg_->cells()))) {
             return Search::running;
         }
-        const Search found = leg_.step();
+        const Search found = leg_->step();
         if (found == Search::running) {
             continue;
         }
@@ -368,13 +375,16 @@ Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
             rest_mm_ = rests_ && found == Search::found ? nearest_rest_mm() : guess_mm_;
         } else if (found == Search::found) {
             adopt();
+            cancel();
             return Search::found;
         }
+        const std::size_t before = attempts_;
         if (rests_) {
             attempt_rest(work);
         } else {
             attempt_wanted(work);
         }
+        SPLINEFEED_ASSERT(attempts_ > before || !running());
     }
     return Search::none;
 }

@@ -18,12 +18,12 @@ namespace splinefeed {
 template <Scalar S, Floating R>
 class JerkChange {
 public:
-    JerkChange() noexcept : leg_({}) {}
+    explicit JerkChange(JerkWindow<S, R>& window) noexcept : window_(&window), leg_(window.scratch()) {}
+
     /// @param from  fraction of the front cell where the machine is, with motion `state`, b > 0
     /// @param planned  number of cells from the front on that have a plan
     /// @pre window.forget_travelled(); nothing else changes the window until the search ends
-    JerkChange(JerkWindow<S, R>& window, double from, const SpeedState& state, std::size_t planned) noexcept;
-
+    void begin(double from, const SpeedState& state, std::size_t planned) noexcept;
     /// Begins the search for the nearest standstill; it is where cell planned() - 1 ends. `none`: there is none in the
     /// window.
     void to_rest(WorkBudget& work) noexcept;
@@ -34,6 +34,9 @@ public:
     /// Goes on. `running`: the budget is spent. `found`: the window has changed. Cost in all: two or three searches of
     /// LegPlan over the cells within the braking distance, in steps.
     Search search(WorkBudget& work) noexcept;
+    [[nodiscard]] bool running() const noexcept { return leg_.held(); }
+    /// Ends the search; the window stays as it is.
+    void cancel() noexcept { leg_.give_back(); }
 
     /// Cells from the front on that have a motion which ends at standstill.
     [[nodiscard]] std::size_t planned() const noexcept { return planned_; }
@@ -42,9 +45,8 @@ public:
 
 private:
     enum class Stage : std::uint8_t {
-        brake,   ///< the motion that brakes as hard as it can, which tells where a standstill or a speed is possible
-        attempt, ///< the one that is adopted
-        none
+        brake,  ///< the motion that brakes as hard as it can, which tells where a standstill or a speed is possible
+        attempt ///< the one that is adopted
     };
     /// Where the cells are split: distances from the machine.
     struct Cuts {
@@ -74,14 +76,14 @@ private:
     [[nodiscard]] SpeedState known_state(std::size_t cell, double fraction) const noexcept;
     [[nodiscard]] double ramp_mm(double from_mm_s, double to_mm_s) const noexcept;
 
-    JerkWindow<S, R>* window_ = nullptr;
-    LegPlan<R> leg_;
+    JerkWindow<S, R>* window_;
+    LegLease<R> leg_;
     Cuts cuts_;
     double from_ = 0.0;
     SpeedState state_{};
     std::size_t old_planned_ = 0;
     MoveLimits along_;       // of the front cell
-    double start_mm_ = 1e9;  // distance since a start with constant jerk
+    double start_mm_ = 0.0;  // distance since a start with constant jerk
     double known_mm_ = 0.0;  // distance to the next stop, or to the end of the window
     double guess_mm_ = 0.0;  // distance that a hold takes with constant limits
     double rest_mm_ = 0.0;   // and as braking tells it
@@ -90,7 +92,7 @@ private:
     std::size_t planned_ = 0;
     std::size_t changed_ = 1;
     std::size_t attempts_ = 0; // that were begun
-    Stage stage_ = Stage::none;
+    Stage stage_ = Stage::brake;
     bool rests_ = false; // else a speed is wanted
     bool fits_ = false;  // with the pieces that were asked for
 };

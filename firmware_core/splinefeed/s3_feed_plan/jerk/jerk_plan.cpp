@@ -26,7 +26,7 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 template <Scalar S, Floating R>
 JerkPlan<S, R>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S, R>& storage) noexcept
     : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage),
-      plan_(window_) {}
+      plan_(window_), change_(window_) {}
 
 template <Scalar S, Floating R>
 R JerkPlan<S, R>::wanted_sq(const Cell<S>& cell, S most_sq) const noexcept {
@@ -136,20 +136,17 @@ bool JerkPlan<S, R>::change_line(double from, const SpeedState& state) noexcept 
 
 template <Scalar S, Floating R>
 Search JerkPlan<S, R>::change_curve(double from, const SpeedState& state, WorkBudget& work) noexcept {
-    if (!changing_) {
-        change_ = JerkChange<S, R>(window_, from, state, plan_.planned());
+    if (!change_.running()) {
+        change_.begin(from, state, plan_.planned());
         if (steering_.stops()) {
             change_.to_rest(work);
         } else {
             change_.to_wanted(work);
         }
-        changing_ = true;
     }
     const Search search = change_.search(work);
-    changing_ = search == Search::running;
     if (search == Search::found) {
         plan_.take(change_.planned(), steering_.stops() ? change_.planned() : change_.changed());
-        plan_.outdate();
     }
     return search;
 }
@@ -159,8 +156,9 @@ Search JerkPlan<S, R>::change_curve(double from, const SpeedState& state, WorkBu
 template <Scalar S, Floating R>
 Search JerkPlan<S, R>::answer(double from, const SpeedState& state, UnderrunPolicy underrun,
                               WorkBudget& work) noexcept {
-    if (steering_.pending() || !changing_) {
-        changing_ = false;
+    if (steering_.pending() || !change_.running()) {
+        change_.cancel();
+        plan_.cancel();
         if (state.b < JerkWindow<S, R>::slowest_sq) {
             return Search::none; // later: it has just started, or is about to stop
         }
@@ -177,14 +175,13 @@ Search JerkPlan<S, R>::answer(double from, const SpeedState& state, UnderrunPoli
                                                : Search::none;
     if (search == Search::running && underrun == UnderrunPolicy::urgent) { // the machine leaves this place
         search = Search::none;
-        changing_ = false;
+        change_.cancel();
     }
     if (search == Search::running) {
         return search;
     }
-    unanswered_ = search == Search::none;
-    retries_ = false;
-    if (unanswered_) {
+    answer_ = search == Search::none ? Answer::owed : Answer::given;
+    if (search == Search::none) {
         if (halt_ > 0) {
             window_.cell(halt_ - 1).stop_at_end = true;
         }
@@ -228,16 +225,15 @@ Steered JerkPlan<S, R>::steer(const PlanState<S>& place, UnderrunPolicy underrun
 // Called before a profile segment is chosen. false: the budget is spent.
 template <Scalar S, Floating R>
 bool JerkPlan<S, R>::follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept {
-    plan_.cancel();
     if (standing()) {
-        unanswered_ = retries_ = changing_ = false;
+        answer_ = Answer::given;
+        change_.cancel();
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
             JerkNode<R>& node = window_.node(i);
             node.cap_sq = node.wanted_sq;
         }
         plan_.take(0, 0);
-        plan_.outdate();
         return true;
     }
     if (line_.done()) {
@@ -271,7 +267,8 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
         const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if ((steering_.pending() || changing_ || (retries_ && !plan_.running())) && !follow_steering(underrun, work)) {
+    if ((steering_.pending() || change_.running() || (answer_ == Answer::due && !plan_.running())) &&
+        !follow_steering(underrun, work)) {
         return Pull::busy;
     }
     if (plan_.committed() == 0 && steering_.stops()) {
@@ -307,7 +304,7 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
 // From the end of what is committed on, once half of it is travelled: so the machine need not wait for the pass.
 template <Scalar S, Floating R>
 bool JerkPlan<S, R>::plan_ahead(WorkBudget& work) noexcept {
-    if (plan_.committed() == 0 || steering_.pending() || steering_.stops() || changing_ || halt_ > 0) {
+    if (plan_.committed() == 0 || steering_.pending() || steering_.stops() || change_.running() || halt_ > 0) {
         return false;
     }
     if (!plan_.running()) {
@@ -331,7 +328,7 @@ template <Scalar S, Floating R>
 void JerkPlan<S, R>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
-    retries_ = unanswered_;
+    answer_ = answer_ == Answer::owed ? Answer::due : answer_;
     if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
         profile_segment_.stretch.from = profile_segment_.stretch.to;
         return;
@@ -362,7 +359,8 @@ void JerkPlan<S, R>::clear() noexcept {
     halt_ = 0;
     on_line_mm_ = 0.0;
     profile_segment_ = {};
-    unanswered_ = retries_ = changing_ = false;
+    answer_ = Answer::given;
+    change_.cancel();
     steering_.start();
 }
 

@@ -48,6 +48,13 @@ private:
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
+    /// To the latest change of the steering.
+    enum class Answer : std::uint8_t {
+        given,
+        owed, ///< no motion was found, and none will be from where this profile segment starts
+        due   ///< a search for one may begin
+    };
+
     Pull fill(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] R wanted_sq(const Cell<S>& cell, S most_sq) const noexcept;
@@ -64,15 +71,13 @@ private:
     const MotionLimits<S>* limits_;
     JerkWindow<S, R> window_;
     WindowPlan<S, R> plan_;
-    JerkChange<S, R> change_;  // used while a motion for a change of the steering is searched
+    JerkChange<S, R> change_;  // runs while a motion for a change of the steering is searched
     LineTravel line_{};        // used while a straight leg is travelled
     MoveLimits line_limits_{}; // limits of that leg
     std::size_t halt_ = 0;     // cells from the front on to the stop that a hold made; 0: none
     double on_line_mm_ = 0.0;  // part of the cell that is already travelled
     bool chosen_ = false;
-    bool changing_ = false;
-    bool unanswered_ = false; // no motion was found yet for the latest change of the steering
-    bool retries_ = false;    // a search for one is due
+    Answer answer_ = Answer::given;
 };
 
 } // namespace splinefeed

@@ -58,7 +58,7 @@ JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap
 template <Scalar S, Floating R>
 JerkWindow<S, R>::JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S, R>& storage) noexcept
     : limits_(axis_limits_of<R>(limits)), segments_per_s_(to_floating<R>(limits.segments_per_s)), storage_(storage),
-      spare_(storage.cells.size() / 4) {
+      scratch_(storage.scratch), spare_(storage.cells.size() / 4) {
     spare_ = spare_ < most_spare ? spare_ : most_spare;
     clear();
 }

@@ -8,7 +8,7 @@
 
 #include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s2_arc_length/cell_interval.hpp"
-#include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk/leg_lease.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 #include <cstdint>
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] JerkCell<R> limits_of(const Cell<S>& cell, R cap_sq) const noexcept {
         return jerk_cell_of<R>(cell, limits_, cap_sq);
     }
-    [[nodiscard]] LegPlan<R> leg() const noexcept { return LegPlan<R>(storage_.scratch); }
+    [[nodiscard]] LegScratch<R>& scratch() noexcept { return scratch_; }
     /// Cells that a leg can have.
     [[nodiscard]] std::size_t longest_leg() const noexcept { return storage_.scratch.size() - 1; }
 
@@ -114,6 +114,7 @@ private:
     AxisLimits<R> limits_;
     R segments_per_s_;
     JerkStorage<S, R> storage_;
+    LegScratch<R> scratch_;
     std::size_t spare_;
     std::size_t head_ = 0;      // first place of the ring of cells
     std::size_t size_ = 0;      // cells in it

@@ -8,6 +8,7 @@
 // over to them, late at first, and later yet where that fails.
 #include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s3_feed_plan/jerk/cell_use.hpp"
@@ -212,6 +213,7 @@ template <Floating R>
 Search LegPlan<R>::step() noexcept {
     switch (stage_) {
     case Stage::guess:
+        SPLINEFEED_ASSERT(lead_ < std::size(leads));
         guess(leads[lead_]);
         solver_.begin({steps_of_a_leg, R(rests_ ? from_rest : in_motion), R(rough<R>), R(margin)});
         stage_ = Stage::first;

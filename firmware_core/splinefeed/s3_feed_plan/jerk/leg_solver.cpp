@@ -26,6 +26,7 @@
 // steps.
 #include "splinefeed/s3_feed_plan/jerk/leg_solver.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
 
@@ -301,6 +302,7 @@ void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
 
 template <Floating R>
 Search LegSolver<R>::step() noexcept {
+    SPLINEFEED_ASSERT(steps_ < effort_.steps);
     backward();
     const R inverse = forward();
     stuck_ = inverse > R(1.0 / stuck_step) ? stuck_ + 1 : 0;

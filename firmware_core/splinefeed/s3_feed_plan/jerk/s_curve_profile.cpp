@@ -26,6 +26,9 @@ constexpr double length_rounding = 1e-9; // of a length, which would be travelle
 // Newton's method on y^3 = x^2, after powers of 8 are removed from x: y starts within a factor of 2.
 template <Floating R>
 R power_two_thirds(R x) noexcept {
+    if (!(x <= largest<R>())) {
+        return x; // no power of 8 brings infinity down
+    }
     R scale{1};
     while (x >= R(8)) {
         x *= R(0.125);

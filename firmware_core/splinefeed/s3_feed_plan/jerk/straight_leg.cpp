@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/number/instantiate.hpp"
 
 namespace splinefeed {
@@ -60,6 +61,7 @@ StraightLeg<S, R>::StraightLeg(JerkWindow<S, R>& window, const MoveLimits& limit
 template <Scalar S, Floating R>
 void StraightLeg<S, R>::find_cells() noexcept {
     while (window_->node(0).travel != Travel::rest_to_rest && !window_->cell(cells_ - 1).stop_at_end) {
+        SPLINEFEED_ASSERT(cells_ < window_->size()); // a straight leg ends at a stop
         ++cells_;
     }
 }

@@ -27,25 +27,16 @@ std::size_t WindowPlan<S, R>::rest_to_rest(std::size_t first, std::size_t end) n
     return planned_;
 }
 
-// Begins to plan cells `first` to `end` as one motion to standstill there.
-template <Scalar S, Floating R>
-void WindowPlan<S, R>::begin_leg(std::size_t first, std::size_t end) noexcept {
-    leg_first_ = first;
-    leg_end_ = end;
-    leg_.begin(window_->state(first));
-    searching_ = true;
-}
-
 // Takes the next cell into the leg; after the last one the search begins.
 template <Scalar S, Floating R>
 void WindowPlan<S, R>::add_cell() noexcept {
-    const std::size_t i = leg_first_ + leg_.cells();
-    leg_.add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
-    if (i < planned_ && window_->node(leg_first_).b > 0.0) {
-        leg_.know(static_cast<R>(window_->node(i).middle_sq));
+    const std::size_t i = at_ + leg_->cells();
+    leg_->add(window_->limits_of(i), window_->node(i + 1).at_most_sq);
+    if (i < planned_ && window_->node(at_).b > 0.0) {
+        leg_->know(static_cast<R>(window_->node(i).middle_sq));
     }
-    if (i + 1 == leg_end_) {
-        leg_.search();
+    if (leg_->cells() == leg_cells_) {
+        leg_->search();
     }
 }
 
@@ -53,38 +44,37 @@ void WindowPlan<S, R>::add_cell() noexcept {
 template <Scalar S, Floating R>
 Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
     Search search = Search::running;
-    while (leg_first_ + leg_.cells() < leg_end_) {
+    while (leg_->cells() < leg_cells_) {
         if (!work.take()) {
             return search;
         }
         add_cell();
     }
     while (search == Search::running) {
-        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+        if (!work.take(static_cast<unsigned>(leg_->cells()))) {
             return Search::running;
         }
-        search = leg_.step();
+        search = leg_->step();
     }
-    searching_ = false;
     ++searched_legs_;
     if (search == Search::none) {
         ++slow_legs_;
-        if (window_->node(leg_first_).b > 0.0 || !leg_.slow()) {
+        if (window_->node(at_).b > 0.0 || !leg_->slow()) {
             return Search::none;
         }
     }
-    leg_.each_cell([&](std::size_t i, double b, double middle_sq) {
-        JerkNode<R>& node = window_->node(leg_first_ + i);
+    leg_->each_cell([&](std::size_t i, double b, double middle_sq) {
+        JerkNode<R>& node = window_->node(at_ + i);
         node.b = b;
         node.middle_sq = middle_sq;
         node.travel = Travel::curve;
     });
-    window_->node(leg_end_).b = 0.0;
+    window_->node(at_ + leg_cells_).b = 0.0;
     return Search::found;
 }
 
 // How much of a leg of so many cells from `first` on, which ends with the window, is final: to about the middle, where
-// it brakes least.
+// it brakes least, and so that a leg is left behind it; one cell at least.
 template <Scalar S, Floating R>
 std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
     const auto part = [cells](unsigned per_cent) {
@@ -103,15 +93,16 @@ std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) 
             break;
         }
     }
-    return smaller(best, cells - 3);
+    return larger<std::size_t>(1, smaller(best, cells - LegPlan<R>::fewest_cells));
 }
 
 // Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
 template <Scalar S, Floating R>
 bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
     const std::size_t half = first_ + (window_->size() - first_ + 1) / 2;
-    complete_ = true;
+    State after = State::complete;
     while (at_ < window_->size() && (at_ == first_ || at_ < half)) {
+        const std::size_t before = at_;
         std::size_t end = at_ + 1;
         while (end < window_->size() && !window_->cell(end - 1).stop_at_end) {
             ++end;
@@ -121,7 +112,7 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
             break;
         }
         const bool rests = !(window_->node(at_).b > 0.0);
-        if (!searching_ && stops && rests && StraightLeg<S, R>::is_straight(*window_, at_, end)) {
+        if (leg_cells_ == 0 && stops && rests && StraightLeg<S, R>::is_straight(*window_, at_, end)) {
             for (std::size_t i = at_; i < end; ++i) {
                 window_->node(i).travel = Travel::line;
             }
@@ -130,31 +121,32 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
             hops_ = 1;
             continue;
         }
-        if (!searching_ && end - at_ >= LegPlan<R>::fewest_cells) {
-            begin_leg(at_, end);
+        if (leg_cells_ == 0 && end - at_ >= LegPlan<R>::fewest_cells) { // as one motion to standstill
+            leg_cells_ = end - at_;
+            leg_->begin(window_->state(at_));
         }
-        const Search search = searching_ ? search_leg(work) : Search::none;
+        const Search search = leg_cells_ > 0 ? search_leg(work) : Search::none;
         if (search == Search::running) {
             return false;
         }
+        leg_cells_ = 0;
         if (search == Search::found) {
             planned_ = end;
             at_ = stops ? end : at_ + final_cells(at_, end - at_);
             hops_ = 1;
-            goes_on_ = false;
         } else if (rests) {
-            goes_on_ = false;
             at_ = rest_to_rest(at_, end);
         } else { // the old plan goes on, and from a little farther there may be another; else it goes on to its end
             SPLINEFEED_ASSERT(at_ == first_ && planned_ > first_);
-            at_ = goes_on_ ? planned_ : at_ + larger<std::size_t>(1, (planned_ - first_) / 8);
-            goes_on_ = true;
-            complete_ = false;
+            at_ = state_ == State::goes_on ? planned_ : at_ + larger<std::size_t>(1, (planned_ - first_) / 8);
+            after = State::goes_on;
             break;
         }
+        SPLINEFEED_ASSERT(at_ > before);
     }
     committed_ = at_;
-    running_ = false;
+    state_ = after;
+    cancel();
     return true;
 }
 

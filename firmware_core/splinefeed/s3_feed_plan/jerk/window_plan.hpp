@@ -15,55 +15,54 @@ namespace splinefeed {
 template <Scalar S, Floating R>
 class WindowPlan {
 public:
-    explicit WindowPlan(JerkWindow<S, R>& window) noexcept : window_(&window), leg_(window.leg()) {}
+    explicit WindowPlan(JerkWindow<S, R>& window) noexcept : window_(&window), leg_(window.scratch()) {}
 
     /// Cells from the front on that are final.
     [[nodiscard]] std::size_t committed() const noexcept { return committed_; }
     /// Cells from the front on that have a plan, which ends at standstill.
     [[nodiscard]] std::size_t planned() const noexcept { return planned_; }
     /// Whether no cell came in since the last plan.
-    [[nodiscard]] bool complete() const noexcept { return complete_; }
-    void outdate() noexcept { complete_ = false; }
+    [[nodiscard]] bool complete() const noexcept { return state_ == State::complete; }
+    void outdate() noexcept { state_ = complete() ? State::outdated : state_; }
     /// @pre cells <= planned()
     void commit(std::size_t cells) noexcept { committed_ = cells; }
-    /// A plan that was made elsewhere. It ends what runs.
+    /// A plan that was made elsewhere, without the cells behind it. It ends what runs.
     void take(std::size_t planned, std::size_t committed) noexcept {
         planned_ = planned;
         committed_ = committed;
-        running_ = searching_ = goes_on_ = false;
+        state_ = State::outdated;
+        cancel();
     }
     /// The front cell is travelled. @pre committed() > 0
     void pop() noexcept {
         --committed_;
         --planned_;
-        if (running_) { // it began behind it
+        if (running()) { // it began behind it
             --first_;
             --at_;
-            --leg_first_;
-            --leg_end_;
         }
     }
     /// Forgets everything.
     void clear() noexcept {
         take(0, 0);
         hops_ = 1;
-        complete_ = false;
     }
 
     /// Begins to plan anew what is not committed. @param ended  no cell comes behind the window
     void begin(bool ended) noexcept {
-        running_ = true;
+        leg_.take();
+        leg_cells_ = 0;
         ended_ = ended;
         first_ = at_ = committed_;
     }
-    [[nodiscard]] bool running() const noexcept { return running_; }
+    [[nodiscard]] bool running() const noexcept { return leg_.held(); }
     /// Ends what runs, without a new plan.
-    void cancel() noexcept { running_ = searching_ = false; }
+    void cancel() noexcept { leg_.give_back(); }
     /// Ends what runs, and commits what it has planned, or a cell of the plan before. @pre planned() > 0
     void give_up() noexcept {
-        committed_ = running_ && at_ > first_ ? at_ : 1;
+        committed_ = running() && at_ > first_ ? at_ : 1;
         cancel();
-        complete_ = false;
+        outdate();
     }
     /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
     /// spent; call again. Cost: a cell that comes into a leg is a step of the budget. A
@@ -76,28 +75,29 @@ public:
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
 
 private:
-    void begin_leg(std::size_t first, std::size_t end) noexcept;
+    enum class State : std::uint8_t {
+        outdated, ///< cells came in since the last plan
+        complete,
+        goes_on ///< by an old plan, because no new one was found
+    };
+
     void add_cell() noexcept;
     Search search_leg(WorkBudget& work) noexcept;
     [[nodiscard]] std::size_t final_cells(std::size_t first, std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
 
     JerkWindow<S, R>* window_;
-    LegPlan<R> leg_;            // that is planned now
-    std::size_t leg_first_ = 0; // its cells
-    std::size_t leg_end_ = 0;
-    std::size_t first_ = 0; // cell that is planned anew
-    std::size_t at_ = 0;    // up to here
+    LegLease<R> leg_;           // that is planned now, from at_ on
+    std::size_t leg_cells_ = 0; // so many; 0: none yet
+    std::size_t first_ = 0;     // cell that is planned anew
+    std::size_t at_ = 0;        // up to here
     std::size_t committed_ = 0;
     std::size_t planned_ = 0;
     std::size_t hops_ = 1; // cells that are passed from standstill to standstill if no plan is found; doubled each time
     std::uint64_t searched_legs_ = 0;
     std::uint64_t slow_legs_ = 0;
-    bool goes_on_ = false; // by an old plan, because no new one was found
-    bool running_ = false;
-    bool searching_ = false; // in leg_
+    State state_ = State::outdated;
     bool ended_ = false;
-    bool complete_ = false;
 };
 
 } // namespace splinefeed

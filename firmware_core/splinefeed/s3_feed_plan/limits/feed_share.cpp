@@ -31,7 +31,7 @@ Ratio<S> share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotar
     return smaller(largest, from_integer<Ratio<S>>(1));
 }
 
-// Below, a linear axis does not count as moving.
+// Below, a linear axis does not count as moving. Lines of such shares come with Cell::feed_along_path.
 template <Scalar S>
 constexpr auto least_linear = literal<Ratio<S>>(0x1p-17);
 
@@ -39,7 +39,7 @@ constexpr auto least_linear = literal<Ratio<S>>(0x1p-17);
 
 template <Scalar S>
 S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
-    if (!limits.mixed) {
+    if (!limits.mixed || cell.feed_along_path) {
         return from_integer<S>(1);
     }
     const Ratio<S> linear = share_of(cell, limits, false);
@@ -48,7 +48,7 @@ S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
 
 template <Scalar S>
 bool feed_is_linear(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
-    return !limits.mixed || share_of(cell, limits, false) > least_linear<S>;
+    return !limits.mixed || (!cell.feed_along_path && share_of(cell, limits, false) > least_linear<S>);
 }
 
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \

@@ -8,9 +8,9 @@
 namespace splinefeed {
 
 /// The largest |dq/ds| over the cell of the axes that define the feed. These are the linear axes if any of them moves,
-/// otherwise the rotary axes, as in NIST's RS274/NGC and LinuxCNC. In (0, 1]; 1 if all axes are of one kind. A linear
-/// axis counts as moving if the linear axes travel more than 2^-17 of the path's length. Cost: four norms if the axes
-/// are mixed.
+/// otherwise the rotary axes, as in NIST's RS274/NGC and LinuxCNC. In (0, 1]; 1 if all axes are of one kind, and where
+/// the move came with its feed along the path. In a cell a linear axis counts as moving if the linear axes travel more
+/// than 2^-17 of its length. Cost: four norms if the axes are mixed.
 template <Scalar S>
 [[nodiscard]] S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept;
 

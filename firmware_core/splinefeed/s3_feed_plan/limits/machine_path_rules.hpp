@@ -56,8 +56,12 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
 [[nodiscard]] constexpr PathRules<double> path_rules(const MachineSettings& machine,
                                                      double joint_tolerance_mm = 0.001) noexcept {
     const bool jerk_limited = axis_totals(machine).smoothest > 0.0;
-    return {jerk_limited ? joint_tolerance_mm : 0.625 * joint_tolerance_mm, sharpest_blend(machine), jerk_limited,
-            jerk_limited ? 4 : 3};
+    PathRules<double> rules{jerk_limited ? joint_tolerance_mm : 0.625 * joint_tolerance_mm, sharpest_blend(machine),
+                            jerk_limited, jerk_limited ? 4 : 3};
+    for (const unsigned k : indices(machine.axes)) {
+        rules.rotary[k] = machine.axis[k].rotary;
+    }
+    return rules;
 }
 
 } // namespace splinefeed
