@@ -45,6 +45,11 @@ bool TargetFeed::carried_out() const {
     return orders_.empty() && (outputs_ == nullptr || outputs_->reached());
 }
 
+bool TargetFeed::spindle_stands() const {
+    const std::lock_guard lock(order_mutex_);
+    return outputs_ == nullptr || outputs_->spindle_stands();
+}
+
 int TargetFeed::answer() const {
     const std::lock_guard lock(order_mutex_);
     return outputs_ != nullptr ? outputs_->answer() : 0;

@@ -64,6 +64,8 @@ public:
     /// An order for the outputs, behind all segments so far. @param standing  the machine stands there
     void order(const ProgramAction& action, bool standing);
     [[nodiscard]] bool carried_out() const;
+    /// ProgramOutputs.
+    [[nodiscard]] bool spindle_stands() const;
     /// What the last input has answered: ProgramOutputs.
     [[nodiscard]] int answer() const;
 

@@ -113,6 +113,7 @@ MachineReading ServedTarget::read() noexcept {
     out.executes = !out.stands && !waypoints_.empty();
     out.waypoint = out.executes ? waypoints_.front() : 0;
     out.spindle_ready = feed_.carried_out();
+    out.spindle_stands = feed_.spindle_stands();
     out.input = feed_.answer();
     const std::lock_guard lock(mutex_);
     for (const unsigned k : indices(machine_->settings.axes)) {

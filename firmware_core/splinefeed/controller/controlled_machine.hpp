@@ -27,7 +27,8 @@ struct MachineReading {
     bool executes = false;        ///< a segment, of this waypoint:
     std::uint32_t waypoint = 0;
     bool known = true;         ///< the position is that of the machine; false: it has to home
-    bool spindle_ready = true; ///< the spindle turns as it was told, or stands; the input of M66 has answered
+    bool spindle_ready = true; ///< the orders are carried out: the spindle has its speed; the input of M66 has answered
+    bool spindle_stands = true; ///< it is known to; counts where it was told to
     std::int32_t input = 0;    ///< that answer: 0, 1, or -1 after its time
     std::uint32_t inputs = 0;  ///< those that are active, InputBits
     bool touched = false;      ///< the probe has changed as watch_probe() said, at touched_at

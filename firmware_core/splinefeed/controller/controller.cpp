@@ -27,7 +27,7 @@ void Controller::greet() noexcept {
 
 void Controller::connect() noexcept {
     answers_.clear();
-    lines_.drop_partial();
+    drop_partial();
     of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
     status_.refresh();
     greet();
@@ -37,7 +37,7 @@ void Controller::connect() noexcept {
 }
 
 void Controller::disconnect() noexcept {
-    lines_.drop_partial();
+    drop_partial();
     if (state() == ControllerState::run || state() == ControllerState::jog) {
         hold();
     }
@@ -50,9 +50,8 @@ void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept 
     now_ms_ = now_ms;
     byte_ms_ = bytes.empty() ? byte_ms_ : now_ms;
     for (const char c : bytes) {
-        const RealtimeByte byte = realtime_byte(static_cast<std::uint8_t>(c));
-        const bool asks = c == '?' || c == '~'; // in a comment it is text
-        if (byte.kind == RealtimeKind::none || (asks && lines_.in_comment())) {
+        const RealtimeByte byte = bytes_.take(static_cast<std::uint8_t>(c), lines_.in_comment());
+        if (byte.kind == RealtimeKind::none) {
             const std::size_t before = lines_.lines();
             if (!lines_.add(c)) {
                 raise(Alarm::lines_lost);
@@ -108,9 +107,8 @@ void Controller::set_overrides() noexcept {
 }
 
 void Controller::hold() noexcept {
-    if (jogging_) {
-        cancel_jog();
-    } else if (!is_locked() && !check_ && ending_ == Ending::none && task_ != Task::home) {
+    cancel_jog();
+    if (!jogging_ && !is_locked() && !check_ && ending_ == Ending::none && task_ != Task::home) {
         held_ = true;
         motion_->hold();
     }
@@ -187,7 +185,7 @@ void Controller::write_status(bool all) noexcept {
     reading_ = machine_->read();
     StatusReport::Content content;
     content.state = state();
-    content.part = closes_ ? 3 : stands() ? 0 : 1;
+    content.part = closes_ ? 3 : stands() && (!door_ || spindle_.settles()) ? 0 : 1;
     content.reading = &reading_;
     content.offsets = &motion_->interpreter().offsets();
     content.spindle = &spindle_;

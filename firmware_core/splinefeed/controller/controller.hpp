@@ -73,7 +73,7 @@ private:
     static constexpr std::size_t report_room = 256;
 
     /// What is done for a line that was taken.
-    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, input, probe, home };
+    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, tool, input, probe, home };
     /// Why the motion comes to its end.
     enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
 
@@ -104,9 +104,14 @@ private:
     [[nodiscard]] bool answers_nobody() noexcept;
     [[nodiscard]] bool waits_for_step() const noexcept;
     void switch_single_block() noexcept;
+    void drop_partial() noexcept {
+        bytes_.restart();
+        lines_.drop_partial();
+        cancelled_lines_ = cancelled_lines_ < lines_.lines() ? cancelled_lines_ : lines_.lines();
+    }
     void forget_lines() noexcept {
         lines_.clear();
-        refused_lines_ = of_another_ = 0;
+        refused_lines_ = cancelled_lines_ = of_another_ = 0;
         refuses_ = false;
     }
 
@@ -119,10 +124,13 @@ private:
     void end_task() noexcept;
     void drop_task() noexcept;
     void pause(std::string_view sentence) noexcept;
+    void ask_for_tool() noexcept;
     void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;
+    [[nodiscard]] bool begin_home() noexcept;
     [[nodiscard]] bool finish_home() noexcept;
+    [[nodiscard]] bool may_begin() noexcept;
     [[nodiscard]] Supply supply(bool dry) const noexcept;
     void watch() noexcept;
 
@@ -138,6 +146,7 @@ private:
     LineMotion* motion_;
     ControlledMachine* machine_;
     LineStore lines_;
+    RealtimeBytes bytes_;
     AnswerText answers_;
     SpindleOrders spindle_;
     Overrides overrides_{};
@@ -153,7 +162,9 @@ private:
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
     std::size_t refused_lines_ = 0; // that had come when one was refused
+    std::size_t cancelled_lines_ = 0; // that had come when jogs were cancelled
     std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
+    std::uint32_t home_axes_ = 0; // that are still to begin their homing
     unsigned lines_left_ = 0;       // that this call may begin
     LineError refusal_ = LineError::none;
     Task task_ = Task::none;

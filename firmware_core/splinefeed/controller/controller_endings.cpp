@@ -6,16 +6,14 @@ namespace splinefeed {
 
 using namespace std::string_view_literals; // a firmware has no strlen
 
+// Also of jogs that wait, however far behind: their lines will have ok, and do nothing.
 void Controller::cancel_jog() noexcept {
+    cancelled_lines_ = lines_.lines() + (lines_.has_partial() ? 1U : 0U);
     if (!jogging_ || ending_ != Ending::none) {
         return;
     }
     if (task_ == Task::jog) {
         end_task();
-    }
-    while (lines_.lines() > 0 && lines_.begins("$J="sv)) {
-        lines_.take(line_);
-        accept();
     }
     ending_ = Ending::jog;
     brake();

@@ -106,7 +106,7 @@ struct DollarCommands {
             c.refuse(LineError::not_now);
         } else {
             c.task_ = Controller::Task::home;
-            c.machine_->home(axes);
+            c.home_axes_ = axes;
         }
     }
     static void jog(Controller& c, TextCursor& rest) noexcept {
@@ -195,11 +195,14 @@ void Controller::execute_line() noexcept {
     TextCursor cursor(line_.view());
     const bool late = refused_lines_ > 0 || refuses_; // it was sent before its sender knew
     refused_lines_ -= refused_lines_ > 0 ? 1U : 0U;
+    TextCursor jog = cursor;
+    const bool cancelled = cancelled_lines_ > 0 && jog.take("$j="sv);
+    cancelled_lines_ -= cancelled_lines_ > 0 ? 1U : 0U;
     const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h';
     if (line_.too_long) {
         say("A line has at most 256 characters beside comments");
         refuse(LineError::too_long);
-    } else if (cursor.at_end()) {
+    } else if (cursor.at_end() || cancelled) {
         accept();
     } else if (late && moves) {
         refuse(refusal_);
@@ -220,10 +223,6 @@ void Controller::execute_line() noexcept {
 void Controller::execute_block(std::string_view text) noexcept {
     if (is_locked() || jogging_) {
         refuse(LineError::locked);
-        return;
-    }
-    if (door_) {
-        refuse(LineError::door_open);
         return;
     }
     const bool begins = activity() == ControllerState::idle && now_ms_ - block_ms_ >= recount_ms;

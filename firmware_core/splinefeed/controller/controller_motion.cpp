@@ -2,6 +2,8 @@
 // Controller: what lines ask for, and how it is done.
 #include "splinefeed/controller/controller.hpp"
 
+#include <utility>
+
 namespace splinefeed {
 
 using namespace std::string_view_literals; // a firmware has no strlen
@@ -28,7 +30,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
         if (quick_ || task_ == Task::home) {
             return Pull::starved;
         }
-        const Pull pull = motion_->next(out, supply(dry));
+        const Pull pull = may_begin() ? motion_->next(out, supply(dry)) : Pull::starved;
         ProgramEvent event;
         while (!held_ && !door_ && motion_->take_event(event)) {
             carry_out(event);
@@ -49,6 +51,11 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
         set_overrides();
     }
     return Pull::starved;
+}
+
+// From standstill nothing moves before the spindle is as ordered, or while a tool is changed, but jogs.
+bool Controller::may_begin() noexcept {
+    return !motion_->at_rest() || ((!tool_ || jogging_) && spindle_.settles());
 }
 
 // Whether the motion waits for more lines. A stop that is planned stays: what the machine needs early, because its ring
@@ -82,7 +89,7 @@ void Controller::watch() noexcept {
     if ((reading_.inputs & InputBits::door) != 0) {
         open_door();
     }
-    if (closes_ && reading_.spindle_ready) {
+    if (closes_ && spindle_.settles()) {
         door_ = closes_ = false;
         motion_->resume();
     }
@@ -96,7 +103,9 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    if (lines_.lines() == 0 || lines_left_ == 0 || (tool_ && !lines_.begins("$"sv)) || waits_for_step()) {
+    const bool late = refuses_ || refused_lines_ > 0;
+    const bool waits = (tool_ || (door_ && !late)) && lines_.lines() > 0 && !lines_.begins("$"sv);
+    if (lines_.lines() == 0 || lines_left_ == 0 || waits || waits_for_step()) {
         return false;
     }
     if (motion_->pass_on() == LineProgress::full) { // of a curve that a pause of the input has ended
@@ -119,17 +128,20 @@ bool Controller::go_on() noexcept {
         }
         break;
     case Task::spindle:
+    case Task::tool:
     case Task::input:
         reading_ = machine_->read();
-        if (!reading_.spindle_ready) {
+        if (!reading_.spindle_ready || !spindle_.settles()) {
             return false;
         }
         if (task_ == Task::input) {
             take_input();
+        } else if (task_ == Task::tool) {
+            ask_for_tool();
         }
         break;
     case Task::probe: return finish_probe();
-    case Task::home: return finish_home();
+    case Task::home: return home_axes_ != 0 ? begin_home() : finish_home();
     case Task::none: return false;
     }
     motion_->carried_out();
@@ -147,7 +159,7 @@ bool Controller::go_on(LineProgress progress) noexcept {
     if (motion_->waiting().needs_rest()) {
         reading_ = machine_->read();
         rests_ = true;
-        if (held_ || door_ || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
+        if (held_ || door_ || tool_ || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
             return false;
         }
         rests_ = false;
@@ -212,9 +224,8 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         pause("M66: there is no input of this number: '~' goes on, a reset ends the program"sv);
         return;
     case EventKind::tool_change:
-        tool_ = true;
         spindle_.stop_all();
-        answers_.put("[MSG:Change to tool ").integer(event.number).put(": '~' goes on]").end_line();
+        task_ = Task::tool;
         return;
     case EventKind::program_end:
         spindle_.stop_all();
@@ -229,6 +240,12 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     } else if (event.stops) {
         task_ = Task::spindle;
     }
+}
+
+// Whoever changes it reaches for the spindle, which stands now.
+void Controller::ask_for_tool() noexcept {
+    tool_ = true;
+    answers_.put("[MSG:Change to tool ").integer(motion_->waiting().event.number).put(": '~' goes on]").end_line();
 }
 
 // What depends on an input that did not come is the operator's to decide.
@@ -288,6 +305,14 @@ bool Controller::finish_probe() noexcept {
     raise(Alarm::probe_without_contact);
     write_probe(probe_, settings_->program, sender_.inches, answers_);
     return true;
+}
+
+bool Controller::begin_home() noexcept {
+    const bool begins = spindle_.settles();
+    if (begins) {
+        machine_->home(std::exchange(home_axes_, 0U));
+    }
+    return begins;
 }
 
 bool Controller::finish_home() noexcept {

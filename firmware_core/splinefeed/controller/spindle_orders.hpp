@@ -29,11 +29,18 @@ public:
     [[nodiscard]] SpindleState state() const noexcept { return state_; }
     [[nodiscard]] bool flood() const noexcept { return flood_; }
     [[nodiscard]] bool mist() const noexcept { return mist_; }
+    /// Whether the spindle turns, or stands, as it was ordered last: until then no motion begins. Speeds that change
+    /// while it turns are not waited for.
+    [[nodiscard]] bool settles() noexcept;
     /// As it is told to turn [1/min].
     [[nodiscard]] Decimal told_rpm() const noexcept;
     [[nodiscard]] int override_percent() const noexcept { return percent_; }
 
 private:
+    [[nodiscard]] bool turns() const noexcept {
+        return state_ != SpindleState::stopped && !suspended_ && !spindle_suspended_;
+    }
+    void order_spindle() noexcept;
     void tell_spindle() noexcept;
     void tell_coolant() noexcept;
     void tell(EventKind kind, Decimal value = {}) noexcept;
@@ -46,6 +53,7 @@ private:
     bool mist_ = false;
     bool suspended_ = false;
     bool spindle_suspended_ = false;
+    bool awaited_ = false; // it is not as ordered yet
 };
 
 } // namespace splinefeed
