@@ -12,7 +12,7 @@ constexpr int most_free_moves = 100;
 Controller::Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
                        Memory memory) noexcept
     : settings_(&settings), motion_(&motion), machine_(&machine), lines_(memory.lines), answers_(memory.answers),
-      spindle_(machine), reading_(machine.read()) {
+      spindle_(settings, machine), reading_(machine.read()) {
     SPLINEFEED_ASSERT(memory.answers.size() >= least_answers);
     motion_->place(reading_.position);
     locked_ = !reading_.known;

@@ -13,7 +13,11 @@ void SpindleOrders::tell(EventKind kind, Decimal value) noexcept {
 }
 
 Decimal SpindleOrders::told_rpm() const noexcept {
-    return turns() ? Decimal{product_quotient(rpm_.raw, percent_, 100).raw} : Decimal{};
+    if (!turns() || rpm_.raw == 0) {
+        return {};
+    }
+    const Decimal rpm{product_quotient(rpm_.raw, percent_, 100).raw};
+    return rpm > settings_->max_rpm ? settings_->max_rpm : rpm < settings_->min_rpm ? settings_->min_rpm : rpm;
 }
 
 bool SpindleOrders::settles() noexcept {
