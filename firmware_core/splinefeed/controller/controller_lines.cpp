@@ -234,7 +234,7 @@ void Controller::execute_block(std::string_view text) noexcept {
     } else if (check_) {
         motion_->leave_out();
         if (motion_->interpreter().has_ended()) {
-            motion_->interpreter().restart();
+            motion_->interpreter().begin_next();
         }
         accept();
     } else {

@@ -229,7 +229,7 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         return;
     case EventKind::program_end:
         spindle_.stop_all();
-        motion_->interpreter().restart();
+        motion_->interpreter().begin_next();
         line_number_ = 0;
         say("Pgm End");
         return;

@@ -49,6 +49,10 @@ void BlockInterpreter::start(const PerAxis<Position>& position) noexcept {
 
 void BlockInterpreter::restart() noexcept {
     modal_ = ModalState::at_start(settings_);
+    begin_next();
+}
+
+void BlockInterpreter::begin_next() noexcept {
     cycle_words_ = {};
     drop_block();
     percent_ = any_block_ = ended_ = false;

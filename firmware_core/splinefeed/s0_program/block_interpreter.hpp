@@ -31,8 +31,10 @@ public:
     /// Where the machine stands, in machine coordinates. Before the first push(), and after an abort: then the rest of
     /// the block is dropped.
     void start(const PerAxis<Position>& position) noexcept;
-    /// For the next program: modes as at the start, offsets and position as they are.
+    /// For another program: modes as at the start, offsets and position as they are.
     void restart() noexcept;
+    /// For the next program behind has_ended(): modes as the end has left them.
+    void begin_next() noexcept;
     /// The offsets of a state file.
     void restore(const WorkOffsets& offsets) noexcept;
     [[nodiscard]] const WorkOffsets& offsets() const noexcept { return frame_.offsets(); }
