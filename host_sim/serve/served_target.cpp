@@ -139,6 +139,19 @@ void ServedTarget::obey(const ProgramEvent& event) noexcept {
     feed_.order(action_of(event), false);
 }
 
+bool ServedTarget::has_output(EventKind kind, std::int32_t number) const noexcept {
+    const ProgramLines& lines = machine_->lines;
+    switch (kind) {
+    case EventKind::mist_on: return lines.mist.has_value();
+    case EventKind::flood_on: return lines.flood.has_value();
+    case EventKind::output_on_with_motion:
+    case EventKind::output_off_with_motion:
+    case EventKind::output_on:
+    case EventKind::output_off: return lines.output(number) != nullptr;
+    default: return false;
+    }
+}
+
 void ServedTarget::forget_input() noexcept {
     constexpr std::int32_t none = -1;
     feed_.order({.kind = EventKind::input_wait, .number = none, .text = {}}, false);

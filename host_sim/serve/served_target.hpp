@@ -58,6 +58,7 @@ public:
     [[nodiscard]] bool has_input(std::int32_t number) const noexcept override {
         return machine_->lines.input(number) != nullptr;
     }
+    [[nodiscard]] bool has_output(EventKind kind, std::int32_t number) const noexcept override;
     void forget_input() noexcept override;
     void watch_probe(bool away) noexcept override;
     void home(std::uint32_t axes) noexcept override;

@@ -104,6 +104,8 @@ public:
         }
     }
 
+    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override { return true; }
+
     // Nothing is ever touched.
     void watch_probe(bool /*away*/) noexcept override {}
 

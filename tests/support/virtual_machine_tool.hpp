@@ -56,6 +56,7 @@ public:
     std::uint32_t inputs = 0;
     Alarm alarm = Alarm::none;
     bool known = true;
+    bool has_outputs = true;
     bool home_found = true;
     std::int32_t input = 0;          // what input 1 answers, after spindle_ms
     std::uint32_t spindle_ms = 0;    // that it takes to its speed
@@ -120,6 +121,9 @@ public:
         turned_ = !stops && (turned_ || event.kind == EventKind::spindle_clockwise);
     }
     [[nodiscard]] bool has_input(std::int32_t number) const noexcept override { return number == 1; }
+    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override {
+        return has_outputs;
+    }
     void watch_probe(bool away) noexcept override {
         touched_.reset();
         away_ = away;

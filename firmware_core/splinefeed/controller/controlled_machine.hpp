@@ -5,7 +5,7 @@
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/controller/alarm.hpp"
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/output_list.hpp"
 
 namespace splinefeed {
 
@@ -39,7 +39,7 @@ struct MachineReading {
     Decimal feed_mm_min{};           ///< speed along the path
 };
 
-class ControlledMachine {
+class ControlledMachine : public OutputList {
 public:
     [[nodiscard]] virtual MachineReading read() noexcept = 0;
     /// Spindle, coolant, outputs: at once, or when the segments that were submitted before are executed, as the event's
@@ -47,6 +47,8 @@ public:
     virtual void obey(const ProgramEvent& event) noexcept = 0;
     /// Whether it reads that input of M66 P; then obey() begins to wait for it.
     [[nodiscard]] virtual bool has_input(std::int32_t /*number*/) const noexcept { return false; }
+    /// By default it has none: what would switch one is refused.
+    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override { return false; }
     /// That wait is given up. Other orders do not end it.
     virtual void forget_input() noexcept {}
     /// From now on the next contact, or the loss of it, is to be noted with its place.

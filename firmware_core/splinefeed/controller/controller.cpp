@@ -15,6 +15,7 @@ Controller::Controller(const ControllerSettings& settings, LineMotion& motion, C
       spindle_(settings, machine), reading_(machine.read()) {
     SPLINEFEED_ASSERT(memory.answers.size() >= least_answers);
     motion_->place(reading_.position);
+    motion_->interpreter().set_outputs(machine);
     locked_ = !reading_.known;
 }
 
@@ -84,8 +85,8 @@ void Controller::act(RealtimeByte byte) noexcept {
             spindle_.toggle_spindle();
         }
         break;
-    case RealtimeKind::flood: spindle_.toggle(EventKind::flood_on); break;
-    case RealtimeKind::mist: spindle_.toggle(EventKind::mist_on); break;
+    case RealtimeKind::flood: toggle(EventKind::flood_on); break;
+    case RealtimeKind::mist: toggle(EventKind::mist_on); break;
     case RealtimeKind::feed_override:
     case RealtimeKind::rapids_override:
     case RealtimeKind::spindle_override:
@@ -103,6 +104,14 @@ void Controller::set_overrides() noexcept {
     motion_->set_overrides(jogging_ ? 100 : overrides_.feed, overrides_.rapids);
     if (spindle_.override_percent() != overrides_.spindle) {
         spindle_.set_override(overrides_.spindle);
+    }
+}
+
+void Controller::toggle(EventKind coolant) noexcept {
+    const ControllerState now = state();
+    const bool may = now == ControllerState::idle || now == ControllerState::run || now == ControllerState::hold;
+    if (may && machine_->has_output(coolant, 0)) {
+        spindle_.toggle(coolant);
     }
 }
 

@@ -82,6 +82,7 @@ private:
     void hold() noexcept;
     void resume() noexcept;
     void open_door() noexcept;
+    void toggle(EventKind coolant) noexcept;
     void set_overrides() noexcept;
     void write_status(bool all) noexcept;
     [[nodiscard]] ControllerState activity() const noexcept;

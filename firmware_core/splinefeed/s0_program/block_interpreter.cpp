@@ -200,6 +200,9 @@ BlockStatus BlockInterpreter::execute() noexcept {
     if (const BlockStatus status = find_use(block_, modal_, letters_, rules(), use); !status.ok()) {
         return status;
     }
+    if (const BlockStatus status = outputs_ != nullptr ? check_outputs() : BlockStatus{}; !status.ok()) {
+        return status;
+    }
     const ModalState modal = modal_;
     const Place place = place_;
     const CycleWords cycle_words = cycle_words_;
