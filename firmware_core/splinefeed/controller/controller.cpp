@@ -3,6 +3,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 namespace {
 
 constexpr int most_free_moves = 100;
@@ -21,7 +23,7 @@ Controller::Controller(const ControllerSettings& settings, LineMotion& motion, C
 
 void Controller::greet() noexcept {
     answers_.end_line().put("Grbl 1.1h ['$' for help]").end_line();
-    if (locked_ || sleep_) {
+    if (is_locked()) {
         say("'$H'|'$X' to unlock");
     }
 }
@@ -29,6 +31,7 @@ void Controller::greet() noexcept {
 void Controller::connect() noexcept {
     answers_.clear();
     drop_partial();
+    alone_ = false;
     of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
     status_.refresh();
     greet();
@@ -42,9 +45,14 @@ void Controller::disconnect() noexcept {
     if (state() == ControllerState::run || state() == ControllerState::jog) {
         hold();
     }
-    if (ending_ != Ending::none || task_ == Task::home) { // what would begin behind that has nobody to watch it
+    if (task_ == Task::home) {
+        stop_homing(Alarm::homing_reset);
+    }
+    if (ending_ != Ending::none) { // what would begin behind that has nobody to watch it
         forget_lines();
     }
+    alone_ = true;
+    byte_ms_ = now_ms_;
 }
 
 void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept {
@@ -117,7 +125,9 @@ void Controller::toggle(EventKind coolant) noexcept {
 
 void Controller::hold() noexcept {
     cancel_jog();
-    if (!jogging_ && !is_locked() && !check_ && ending_ == Ending::none && task_ != Task::home) {
+    if (task_ == Task::home) {
+        stop_homing(Alarm::homing_reset);
+    } else if (!jogging_ && !is_locked() && !check_ && ending_ == Ending::none) {
         held_ = true;
         motion_->hold();
     }
@@ -152,9 +162,7 @@ void Controller::open_door() noexcept {
         return;
     }
     if (task_ == Task::home) {
-        machine_->quick_stop();
-        quick_ = true;
-        raise(Alarm::homing_door);
+        stop_homing(Alarm::homing_door);
         return;
     }
     cancel_jog();
@@ -170,6 +178,7 @@ ControllerState Controller::state() const noexcept {
     const ControllerState now = activity();
     return now != ControllerState::idle || lines_.lines() == 0 ? now
            : waits_for_step()                                  ? ControllerState::hold
+           : lines_.begins("$J="sv)                            ? ControllerState::jog
                                                                : ControllerState::run;
 }
 

@@ -100,7 +100,7 @@ private:
     void execute_line() noexcept;
     void execute_block(std::string_view text) noexcept;
     void refuse(LineError error) noexcept;
-    void refuse_block(const BlockStatus& status) noexcept;
+    void refuse_block(const BlockStatus& status, bool jog = false) noexcept;
     void accept() noexcept;
     [[nodiscard]] bool answers_nobody() noexcept;
     [[nodiscard]] bool waits_for_step() const noexcept;
@@ -141,6 +141,8 @@ private:
     void settle() noexcept;
     void end_reset() noexcept;
     void cancel_jog() noexcept;
+    void stop_homing(Alarm alarm) noexcept;
+    void switch_off_alone() noexcept;
     void raise(Alarm alarm, std::string_view sentence = {}) noexcept;
 
     const ControllerSettings* settings_;
@@ -183,6 +185,7 @@ private:
     bool single_ = false; // block by block:
     bool steps_ = false;  // the next one may begin
     bool jogging_ = false;
+    bool alone_ = false;   // the sender has gone
     bool touched_ = false; // the probe's move ends
     bool rests_ = false;   // the line's next item needs the machine at rest
 };

@@ -19,6 +19,25 @@ void Controller::cancel_jog() noexcept {
     brake();
 }
 
+void Controller::stop_homing(Alarm alarm) noexcept {
+    machine_->quick_stop();
+    quick_ = true;
+    raise(alarm);
+}
+
+// In a hold '~' starts them again.
+void Controller::switch_off_alone() noexcept {
+    const ControllerState now = state();
+    if (now == ControllerState::hold) {
+        spindle_.suspend();
+    } else if (now != ControllerState::run && now != ControllerState::door) {
+        spindle_.stop_all();
+    } else {
+        return;
+    }
+    alone_ = false;
+}
+
 // The machine's own stop, where it has one: its segments need not be travelled to their end first.
 void Controller::brake() noexcept {
     reading_ = machine_->read();

@@ -121,7 +121,7 @@ struct DollarCommands {
         BlockStatus status = c.motion_->interpreter().push_jog(text, c.line_number_);
         if (!status.ok()) {
             status.column = static_cast<std::uint16_t>(status.column > 0 ? status.column + rest.at() : 0);
-            c.refuse_block(status);
+            c.refuse_block(status, true);
             return;
         }
         c.jogging_ = true;
@@ -175,7 +175,13 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     constexpr std::int64_t shown = Decimal::one / 1000;
     const std::int64_t apart = value.raw - present.raw;
     std::int32_t whole = 0;
-    if ((n == 10 || n == 13) && to_integer(value, whole) && whole >= 0 && whole <= 255) {
+    if (n == 10 || n == 13) {
+        const std::int32_t most = n == 10 ? SenderSettings::most_mask : 1;
+        if (!to_integer(value, whole) || whole < 0 || whole > most) {
+            c.say(n == 10 ? "$10 has bits 0 to 8: reports have no modes and no substates"sv : "$13 is 0 or 1"sv);
+            c.refuse(LineError::setting_disabled);
+            return;
+        }
         c.sender_.report_mask = n == 10 ? whole : c.sender_.report_mask;
         c.sender_.inches = n == 13 ? whole != 0 : c.sender_.inches;
     } else if (apart > shown || apart < -shown) {
@@ -277,8 +283,13 @@ void Controller::refuse(LineError error) noexcept {
 }
 
 // Lines that had come before are refused, too, and what moves is held: the sender decides.
-void Controller::refuse_block(const BlockStatus& status) noexcept {
-    answers_.put("[MSG:Error: ").integer(line_number_);
+void Controller::refuse_block(const BlockStatus& status, bool jog) noexcept {
+    answers_.put("[MSG:Error: ");
+    if (jog) {
+        answers_.put("jog");
+    } else {
+        answers_.integer(line_number_);
+    }
     if (status.column > 0) {
         answers_.put(':').integer(status.column);
     }

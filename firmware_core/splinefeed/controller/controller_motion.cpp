@@ -82,6 +82,9 @@ void Controller::watch() noexcept {
     if (jogging_ && settings_->jog_timeout_ms > 0 && now_ms_ - byte_ms_ > settings_->jog_timeout_ms) {
         cancel_jog();
     }
+    if (alone_ && settings_->unattended_ms > 0 && now_ms_ - byte_ms_ > settings_->unattended_ms) {
+        switch_off_alone();
+    }
     if (task_ == Task::probe && reading_.touched && !touched_) {
         touched_ = true;
         motion_->abort();
@@ -270,8 +273,9 @@ void Controller::begin_probe() noexcept {
     }
     if (((reading_.inputs & InputBits::probe) != 0) != probe.away) {
         motion_->restart();
-        end_task();
+        drop_task();
         raise(Alarm::probe_at_start);
+        accept();
         return;
     }
     machine_->watch_probe(probe.away);
@@ -296,14 +300,12 @@ bool Controller::finish_probe() noexcept {
         probe_.at[k] = to_decimal(contact ? reading_.touched_at[k] : place[k]);
     }
     probe_.contact = contact;
-    if (contact || !required) {
-        write_probe(probe_, settings_->program, sender_.inches, answers_);
-        end_task();
-        return true;
+    drop_task();
+    if (required && !contact) { // grbl's order: who waits for ok alone sees the alarm before
+        raise(Alarm::probe_without_contact);
     }
-    end_task();
-    raise(Alarm::probe_without_contact);
     write_probe(probe_, settings_->program, sender_.inches, answers_);
+    accept();
     return true;
 }
 

@@ -9,6 +9,8 @@ namespace splinefeed {
 
 /// The two that a sender may set.
 struct SenderSettings {
+    static constexpr std::int32_t most_mask = 511; ///< bits 3 to 8 ask for what reports have anyway
+
     std::int32_t report_mask = 3; ///< $10
     bool inches = false;          ///< $13
 };
