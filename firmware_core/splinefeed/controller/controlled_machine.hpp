@@ -29,9 +29,9 @@ struct MachineReading {
     bool known = true;         ///< the position is that of the machine; false: it has to home
     bool spindle_ready = true; ///< the orders are carried out: the spindle has its speed; the input of M66 has answered
     bool spindle_stands = true; ///< it is known to; counts where it was told to
-    std::int32_t input = 0;    ///< that answer: 0, 1, or -1 after its time
-    std::uint32_t inputs = 0;  ///< those that are active, InputBits
-    bool touched = false;      ///< the probe has changed as watch_probe() said, at touched_at
+    std::int32_t input = 0;     ///< that answer: 0, 1, or -1 after its time
+    std::uint32_t inputs = 0;   ///< those that are active, InputBits
+    bool touched = false;       ///< the probe has changed as watch_probe() said, at touched_at
     PerAxis<Position> touched_at{};
     HomingPhase homing = HomingPhase::none;
     Alarm alarm = Alarm::none;       ///< as long as its cause lasts

@@ -164,11 +164,11 @@ private:
     std::uint32_t block_ms_ = 0; // when the last block was executed
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
-    std::size_t refused_lines_ = 0; // that had come when one was refused
+    std::size_t refused_lines_ = 0;   // that had come when one was refused
     std::size_t cancelled_lines_ = 0; // that had come when jogs were cancelled
-    std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
-    std::uint32_t home_axes_ = 0; // that are still to begin their homing
-    unsigned lines_left_ = 0;       // that this call may begin
+    std::size_t of_another_ = 0;      // lines that the sender before has sent: they have no answer
+    std::uint32_t home_axes_ = 0;     // that are still to begin their homing
+    unsigned lines_left_ = 0;         // that this call may begin
     LineError refusal_ = LineError::none;
     Task task_ = Task::none;
     Ending ending_ = Ending::none;
