@@ -35,18 +35,16 @@ void Controller::connect() noexcept {
     of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
     status_.refresh();
     greet();
-    if (held_) {
+    if (mode_ == Mode::held) {
         say("Held: '~' goes on, a reset ends the program");
     }
 }
 
 void Controller::disconnect() noexcept {
     drop_partial();
-    if (state() == ControllerState::run || state() == ControllerState::jog) {
+    const ControllerState now = state();
+    if (now == ControllerState::run || now == ControllerState::jog || now == ControllerState::home) {
         hold();
-    }
-    if (task_ == Task::home) {
-        stop_homing(Alarm::homing_reset);
     }
     if (ending_ != Ending::none) { // what would begin behind that has nobody to watch it
         forget_lines();
@@ -89,7 +87,7 @@ void Controller::act(RealtimeByte byte) noexcept {
     case RealtimeKind::jog_cancel: cancel_jog(); break;
     case RealtimeKind::single_block: switch_single_block(); break;
     case RealtimeKind::spindle_stop:
-        if (held_ && stands()) {
+        if (mode_ == Mode::held && stands()) {
             spindle_.toggle_spindle();
         }
         break;
@@ -126,51 +124,40 @@ void Controller::toggle(EventKind coolant) noexcept {
 void Controller::hold() noexcept {
     cancel_jog();
     if (task_ == Task::home) {
-        stop_homing(Alarm::homing_reset);
-    } else if (!jogging_ && !is_locked() && !check_ && ending_ == Ending::none) {
-        held_ = true;
+        stop_quickly(Alarm::homing_reset);
+    } else if (!jogging_ && !is_locked() && ending_ == Ending::none && take(ModeEvent::hold)) {
         motion_->hold();
     }
 }
 
 void Controller::resume() noexcept {
     reading_ = machine_->read();
-    if (door_) {
-        if ((reading_.inputs & InputBits::door) != 0) {
-            say("The door is open: close it, then '~'");
-            return;
-        }
-        spindle_.restore();
-        closes_ = true;
-        refuses_ = false;
+    if (in_door() && (reading_.inputs & InputBits::door) != 0) {
+        say("The door is open: close it, then '~'");
         return;
     }
-    if (reading_.alarm != Alarm::none || ending_ != Ending::none) {
+    if (!in_door() && (reading_.alarm != Alarm::none || ending_ != Ending::none)) {
         return;
     }
-    tool_ = refuses_ = false;
-    steps_ = !held_ && waits_for_step();
-    if (held_) {
-        held_ = false;
+    refused_lines_ = refused_lines_ == all_lines ? lines_.lines() : refused_lines_;
+    const bool held = mode_ == Mode::held;
+    pace_ = !held && waits_for_step() ? Pace::step : pace_;
+    if (take(ModeEvent::resume)) {
         spindle_.restore();
+    }
+    if (held) {
         motion_->resume();
     }
 }
 
 void Controller::open_door() noexcept {
-    if (door_ || is_locked() || check_) {
-        return;
-    }
     if (task_ == Task::home) {
-        stop_homing(Alarm::homing_door);
-        return;
+        stop_quickly(Alarm::homing_door);
+    } else if (!is_locked() && take(ModeEvent::door)) {
+        cancel_jog();
+        motion_->hold();
+        spindle_.suspend();
     }
-    cancel_jog();
-    held_ = false;
-    door_ = true;
-    closes_ = false;
-    motion_->hold();
-    spindle_.suspend();
 }
 
 // A line that waits will be executed.
@@ -183,17 +170,22 @@ ControllerState Controller::state() const noexcept {
 }
 
 ControllerState Controller::activity() const noexcept {
-    if (sleep_ || task_ == Task::home) {
-        return sleep_ ? ControllerState::sleep : ControllerState::home;
+    if (task_ == Task::home) {
+        return ControllerState::home;
     }
-    return is_locked()                                                        ? ControllerState::alarm
-           : check_                                                           ? ControllerState::check
-           : door_                                                            ? ControllerState::door
-           : held_ || ending_ == Ending::reset || ending_ == Ending::stop     ? ControllerState::hold
-           : jogging_                                                         ? ControllerState::jog
-           : tool_                                                            ? ControllerState::tool
-           : task_ != Task::none || !motion_->exhausted() || !reading_.stands ? ControllerState::run
-                                                                              : ControllerState::idle;
+    if (is_locked() && mode_ != Mode::sleep) {
+        return ControllerState::alarm;
+    }
+    if (mode_ == Mode::ready || mode_ == Mode::tool) {
+        if (ending_ == Ending::reset || ending_ == Ending::stop) {
+            return ControllerState::hold;
+        }
+        if (jogging_) {
+            return ControllerState::jog;
+        }
+    }
+    const bool moves = task_ != Task::none || !motion_->exhausted() || !reading_.stands;
+    return mode_ == Mode::ready && moves ? ControllerState::run : shown_in(mode_);
 }
 
 void Controller::write_status(bool all) noexcept {
@@ -203,17 +195,16 @@ void Controller::write_status(bool all) noexcept {
     reading_ = machine_->read();
     StatusReport::Content content;
     content.state = state();
-    content.part = closes_ ? 3 : stands() && (!door_ || spindle_.settles()) ? 0 : 1;
+    content.part = mode_ == Mode::closing ? 3 : stands() && (!in_door() || spindle_.settles()) ? 0 : 1;
     content.reading = &reading_;
     content.offsets = &motion_->interpreter().offsets();
     content.spindle = &spindle_;
     content.overrides = overrides_;
-    content.free_moves = task_ == Task::line ? 0 : most_free_moves;
+    content.free_moves = task_ == Task::line || task_ == Task::rest ? 0 : most_free_moves;
     const auto most = static_cast<std::size_t>(settings_->receive_bytes);
     content.free_bytes = lines_.room() < most ? lines_.room() : most;
     content.line = reading_.executes && !jogging_ ? motion_->line_of(reading_.waypoint) : 0;
-    status_.mask = sender_.report_mask;
-    status_.inches = sender_.inches;
+    content.sender = sender_;
     status_.write(content, *settings_, all, answers_);
 }
 

@@ -2,8 +2,6 @@
 // Controller: what lines ask for, and how it is done.
 #include "splinefeed/controller/controller.hpp"
 
-#include <utility>
-
 namespace splinefeed {
 
 using namespace std::string_view_literals; // a firmware has no strlen
@@ -32,7 +30,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
         }
         const Pull pull = may_begin() ? motion_->next(out, supply(dry)) : Pull::starved;
         ProgramEvent event;
-        while (!held_ && !door_ && motion_->take_event(event)) {
+        while (!holds() && motion_->take_event(event)) {
             carry_out(event);
         }
         if (pull == Pull::item || pull == Pull::busy) {
@@ -55,20 +53,20 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
 
 // From standstill nothing moves before the spindle is as ordered, or while a tool is changed, but jogs.
 bool Controller::may_begin() noexcept {
-    return !motion_->at_rest() || ((!tool_ || jogging_) && spindle_.settles());
+    return !motion_->at_rest() || ((mode_ != Mode::tool || jogging_) && spindle_.settles());
 }
 
 // Whether the motion waits for more lines. A stop that is planned stays: what the machine needs early, because its ring
 // begins to fill, does not end a motion whose lines come.
 Supply Controller::supply(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
-    if (waits || ending_ != Ending::none || rests_ || single_ || motion_->left_travel()) {
+    if (waits || ending_ != Ending::none || pace_ != Pace::flows || motion_->left_travel()) {
         return Supply::pauses;
     }
     const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
     if (motion_->at_rest()) {
-        const bool may_move = !held_ && !door_; // else it can wait, however slowly the lines come
-        return lines_.lines() == 0 && pauses && may_move ? Supply::pauses : Supply::flows;
+        // Held it can wait, however slowly the lines come.
+        return lines_.lines() == 0 && pauses && !holds() ? Supply::pauses : Supply::flows;
     }
     const bool takes_none = dry && (lines_left_ > 0 || lines_.lines() == 0);
     return !takes_none ? Supply::flows : pauses ? Supply::pauses : Supply::late;
@@ -82,18 +80,20 @@ void Controller::watch() noexcept {
     if (jogging_ && settings_->jog_timeout_ms > 0 && now_ms_ - byte_ms_ > settings_->jog_timeout_ms) {
         cancel_jog();
     }
-    if (alone_ && settings_->unattended_ms > 0 && now_ms_ - byte_ms_ > settings_->unattended_ms) {
-        switch_off_alone();
+    const std::uint32_t most_ms = settings_->unattended_ms;
+    if (alone_ && spindle_.is_on() && most_ms > 0 && now_ms_ - byte_ms_ > most_ms) {
+        hold();
+        holds() ? spindle_.suspend() : spindle_.stop_all(); // in a hold '~' starts them again
     }
-    if (task_ == Task::probe && reading_.touched && !touched_) {
-        touched_ = true;
+    if (task_ == Task::probe && reading_.touched) {
+        task_ = Task::touched;
         motion_->abort();
     }
     if ((reading_.inputs & InputBits::door) != 0) {
         open_door();
     }
-    if (closes_ && spindle_.settles()) {
-        door_ = closes_ = false;
+    if (mode_ == Mode::closing && spindle_.settles()) {
+        take(ModeEvent::settled);
         motion_->resume();
     }
 }
@@ -106,8 +106,8 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    const bool late = refuses_ || refused_lines_ > 0;
-    const bool waits = (tool_ || (door_ && !late)) && lines_.lines() > 0 && !lines_.begins("$"sv);
+    const bool waits =
+        (mode_ == Mode::tool || (in_door() && refused_lines_ == 0)) && lines_.lines() > 0 && !lines_.begins("$"sv);
     if (lines_.lines() == 0 || lines_left_ == 0 || waits || waits_for_step()) {
         return false;
     }
@@ -115,7 +115,7 @@ bool Controller::step() noexcept {
         return false;
     }
     --lines_left_;
-    steps_ = false;
+    pace_ = pace_ == Pace::step ? Pace::single : pace_;
     lines_.take(line_);
     execute_line();
     return true;
@@ -123,10 +123,11 @@ bool Controller::step() noexcept {
 
 bool Controller::go_on() noexcept {
     switch (task_) {
-    case Task::line: return go_on(motion_->pass_on());
+    case Task::line:
+    case Task::rest: return go_on(motion_->pass_on());
     case Task::jog: return go_on(motion_->pass_jog());
     case Task::dwell:
-        if (held_ || door_ || static_cast<std::int32_t>(now_ms_ - until_ms_) < 0) {
+        if (holds() || static_cast<std::int32_t>(now_ms_ - until_ms_) < 0) {
             return false;
         }
         break;
@@ -138,13 +139,21 @@ bool Controller::go_on() noexcept {
             return false;
         }
         if (task_ == Task::input) {
-            take_input();
+            motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
+            if (reading_.input < 0) { // what depends on it is the operator's to decide
+                pause("M66: its input has not come in time: '~' goes on, a reset ends the program"sv);
+            }
         } else if (task_ == Task::tool) {
-            ask_for_tool();
+            take(ModeEvent::tool); // who changes it reaches for the spindle, which stands now
+            answers_.put("[MSG:Change to tool ")
+                .integer(motion_->waiting().event.number)
+                .put(": '~' goes on]")
+                .end_line();
         }
         break;
-    case Task::probe: return finish_probe();
-    case Task::home: return home_axes_ != 0 ? begin_home() : finish_home();
+    case Task::probe:
+    case Task::touched: return finish_probe();
+    case Task::home: return go_home();
     case Task::none: return false;
     }
     motion_->carried_out();
@@ -153,20 +162,20 @@ bool Controller::go_on() noexcept {
 }
 
 bool Controller::go_on(LineProgress progress) noexcept {
-    rests_ = false;
-    switch (progress) {
-    case LineProgress::done: end_task(); return true;
-    case LineProgress::full: return false;
-    case LineProgress::waits: break;
+    if (progress == LineProgress::done) {
+        end_task();
+    }
+    if (progress != LineProgress::waits) {
+        return progress == LineProgress::done;
     }
     if (motion_->waiting().needs_rest()) {
         reading_ = machine_->read();
-        rests_ = true;
-        if (held_ || door_ || tool_ || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
+        task_ = Task::rest;
+        if (holds() || mode_ == Mode::tool || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
             return false;
         }
-        rests_ = false;
     }
+    task_ = Task::line;
     return carry_out();
 }
 
@@ -204,7 +213,7 @@ bool Controller::carry_out() noexcept {
 }
 
 void Controller::pause(std::string_view sentence) noexcept {
-    held_ = true;
+    take(ModeEvent::hold);
     motion_->hold();
     say(sentence);
 }
@@ -245,42 +254,24 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     }
 }
 
-// Whoever changes it reaches for the spindle, which stands now.
-void Controller::ask_for_tool() noexcept {
-    tool_ = true;
-    answers_.put("[MSG:Change to tool ").integer(motion_->waiting().event.number).put(": '~' goes on]").end_line();
-}
-
-// What depends on an input that did not come is the operator's to decide.
-void Controller::take_input() noexcept {
-    motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
-    if (reading_.input < 0) {
-        pause("M66: its input has not come in time: '~' goes on, a reset ends the program"sv);
-    }
-}
-
 void Controller::begin_probe() noexcept {
     const ProbeCondition probe = motion_->waiting().probe;
-    touched_ = false;
-    if (!settings_->probes) {
-        motion_->restart();
-        task_ = Task::none;
-        say("The machine has no probe");
-        refusal_ = LineError::unsupported_word;
-        refused_lines_ = settings_->holds_on_error ? lines_.lines() : 0;
-        refuse(refusal_);
+    const bool touches = ((reading_.inputs & InputBits::probe) != 0) != probe.away;
+    if (settings_->probes && !touches) {
+        machine_->watch_probe(probe.away);
+        motion_->begin_waiting();
+        task_ = Task::probe;
         return;
     }
-    if (((reading_.inputs & InputBits::probe) != 0) != probe.away) {
-        motion_->restart();
-        drop_task();
+    motion_->restart();
+    drop_task();
+    if (settings_->probes) {
         raise(Alarm::probe_at_start);
         accept();
-        return;
+    } else {
+        say("The machine has no probe");
+        refuse_behind(LineError::unsupported_word);
     }
-    machine_->watch_probe(probe.away);
-    motion_->begin_waiting();
-    task_ = Task::probe;
 }
 
 bool Controller::finish_probe() noexcept {
@@ -309,17 +300,12 @@ bool Controller::finish_probe() noexcept {
     return true;
 }
 
-bool Controller::begin_home() noexcept {
-    const bool begins = spindle_.settles();
-    if (begins) {
+bool Controller::go_home() noexcept {
+    if (home_axes_ != 0 && spindle_.settles()) {
         machine_->home(std::exchange(home_axes_, 0U));
     }
-    return begins;
-}
-
-bool Controller::finish_home() noexcept {
     reading_ = machine_->read();
-    if (reading_.homing == HomingPhase::busy) {
+    if (home_axes_ != 0 || reading_.homing == HomingPhase::busy) {
         return false;
     }
     task_ = Task::none;
@@ -329,7 +315,7 @@ bool Controller::finish_home() noexcept {
         refuse(LineError::locked);
         raise(Alarm::homing_not_found, reading_.alarm_sentence);
     } else {
-        locked_ = !reading_.known && (locked_ || row_of(alarm_).stays); // the other axes, too
+        locked_ = locked_ && !reading_.known; // the other axes, too
         alarm_ = Alarm::none;
         if (locked_) {
             say("Axes are still to be homed: '$H'|'$X' to unlock");

@@ -11,8 +11,9 @@ namespace splinefeed {
 struct SenderSettings {
     static constexpr std::int32_t most_mask = 511; ///< bits 3 to 8 ask for what reports have anyway
 
-    std::int32_t report_mask = 3; ///< $10
-    bool inches = false;          ///< $13
+    /// $10: bit 0 machine position, else that of the program; bit 1 buffers, bit 2 line
+    std::int32_t report_mask = 3;
+    bool inches = false; ///< $13
 };
 
 /// The machine file states the numbers: nothing changes them from here.

@@ -28,6 +28,7 @@ public:
     /// Stops the spindle, or starts it again.
     void toggle_spindle() noexcept;
 
+    [[nodiscard]] bool is_on() const noexcept { return turns() || ((flood_ || mist_) && !suspended_); }
     [[nodiscard]] SpindleState state() const noexcept { return state_; }
     [[nodiscard]] bool flood() const noexcept { return flood_; }
     [[nodiscard]] bool mist() const noexcept { return mist_; }
