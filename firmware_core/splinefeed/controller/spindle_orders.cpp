@@ -102,7 +102,9 @@ void SpindleOrders::toggle_spindle() noexcept {
 
 void SpindleOrders::suspend() noexcept {
     suspended_ = true;
-    order_spindle();
+    if (state_ != SpindleState::stopped) {
+        order_spindle();
+    }
     tell_coolant();
 }
 
