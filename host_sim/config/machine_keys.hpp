@@ -84,8 +84,10 @@ inline constexpr FileKey sensed_keys[] = {
 inline constexpr FileTable sensed_table{"[spindle.at_speed]", sensed_keys, {}};
 
 inline constexpr FileKey spindle_keys[] = {
-    needed(number_key("max_rpm", 0.001, 1e6, "1/min", "A program that asks for more is refused.")),
-    number_key("min_rpm", 0, 1e6, "1/min", "A program that asks for less is refused; at most max_rpm."),
+    needed(
+        number_key("max_rpm", 0.001, 1e6, "1/min", "run refuses a program that asks for more; serve turns no faster.")),
+    number_key("min_rpm", 0, 1e6, "1/min",
+               "run refuses a program that asks for less; serve turns no slower. At most max_rpm."),
     number_key("ramp_s", 0, 600, "s", "From standstill to max_rpm, in the simulated machine; default 0."),
     text_key("vfd", "Address of its frequency inverter, with &profile=; for real targets."),
     number_key("rpm_per_hz", 0.001, 1e4, "1/min per Hz", "Speed of the spindle per Hz of the inverter; default 60."),

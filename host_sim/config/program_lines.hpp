@@ -7,6 +7,7 @@
 
 #include "splinefeed/hal/gpio/line_map.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/s0_program/program_event.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -87,6 +88,20 @@ struct ProgramLines {
     [[nodiscard]] bool empty() const noexcept { return chips.empty(); }
     [[nodiscard]] const DigitalOutput* output(int number) const noexcept { return of_number(outputs, number); }
     [[nodiscard]] const DigitalInput* input(int number) const noexcept { return of_number(inputs, number); }
+    /// The law of both doors: whether the machine has what an event of M7 to M9 or M62 to M66 switches or reads.
+    [[nodiscard]] bool has(EventKind kind, int number) const noexcept {
+        switch (kind) {
+        case EventKind::mist_on: return mist.has_value();
+        case EventKind::flood_on: return flood.has_value();
+        case EventKind::coolant_off: return mist || flood;
+        case EventKind::output_on_with_motion:
+        case EventKind::output_off_with_motion:
+        case EventKind::output_on:
+        case EventKind::output_off: return output(number) != nullptr;
+        case EventKind::input_wait: return input(number) != nullptr;
+        default: return false;
+        }
+    }
 
 private:
     template <class Numbered>

@@ -17,7 +17,7 @@ struct SpindleDescription {
         hal::modbus::DriveProfile profile;
     };
 
-    double min_rpm = 0.0; ///< programs that ask for less, or more than the next, are refused
+    double min_rpm = 0.0; ///< `run` refuses programs that ask for less, or more than the next
     double max_rpm = 0.0;
     double rpm_per_hz = 60.0;         ///< of the VFD's output: 60 for a motor of two poles, 30 for one of four
     double ramp_s = 0.0;              ///< from standstill to max_rpm, as the simulated machine counts it

@@ -182,6 +182,7 @@ MachineReading LiveMachine::read() noexcept {
     MachineReading out;
     out.stands = stands();
     out.spindle_ready = feed_->carried_out();
+    out.spindle_stands = feed_->spindle_stands();
     out.input = feed_->answer();
     const std::lock_guard lock(mutex_);
     out.executes = !out.stands && feed_->executed() < feed_->pushed();
@@ -213,6 +214,10 @@ void LiveMachine::obey(const ProgramEvent& event) noexcept {
 
 bool LiveMachine::has_input(std::int32_t number) const noexcept {
     return reads_inputs_ && machine_->lines.input(number) != nullptr;
+}
+
+bool LiveMachine::has_output(EventKind kind, std::int32_t number) const noexcept {
+    return settings_.simulates || machine_->lines.has(kind, number);
 }
 
 void LiveMachine::forget_input() noexcept {

@@ -47,6 +47,7 @@ public:
         SignalWatch* signals = nullptr;           ///< of a run, which has one motion; null: it is served
         StateKeeper* state = nullptr;             ///< of a run; null: nothing is kept
         TargetRecord* record = nullptr;           ///< null: nobody looks
+        bool simulates = false;                   ///< it has all outputs that are asked for, as in a simulated run
         PerAxis<double> told_mm{};                ///< where axes stand that do not know it
         std::uint32_t told = 0;                   ///< axes that stand there indeed, by bits, if they cannot be asked
         hal::Clock* clock = &hal::system_clock(); ///< that of its thread
@@ -137,6 +138,7 @@ public:
     MachineReading read() noexcept override;
     void obey(const ProgramEvent& event) noexcept override;
     [[nodiscard]] bool has_input(std::int32_t number) const noexcept override;
+    [[nodiscard]] bool has_output(EventKind kind, std::int32_t number) const noexcept override;
     void forget_input() noexcept override;
     void watch_probe(bool away) noexcept override;
     void home(std::uint32_t axes) noexcept override;

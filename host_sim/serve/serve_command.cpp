@@ -67,6 +67,7 @@ int run_serve(const ServeArguments& arguments) {
     if (kind.is_real && !target->has_feedback()) {
         tell_note(note_unknown(begins, machine.machine, live_settings.told_mm));
     }
+    live_settings.simulates = !kind.is_real;
     live_settings.segment_ticks = fit_to_target(machine.machine, ScalarKind::fixed, *target, false).segment_ticks;
     LiveMachine live(*target, machine.machine, live_settings,
                      [&] { return make_outputs(machine.machine, arguments.target); });

@@ -62,6 +62,10 @@ private:
             machine.input = static_cast<std::int32_t>(value);
         } else if (what == "spindle") {
             machine.spindle_ms = static_cast<std::uint32_t>(value);
+        } else if (what == "outputs") {
+            machine.has_outputs = value != 0.0;
+        } else if (what == "slowest") {
+            tool_.settings.min_rpm = Decimal::from_integer(static_cast<std::int32_t>(value));
         } else if (what == "homes") {
             tool_.settings.homes = static_cast<std::uint32_t>(value);
         } else if (what == "probes") {

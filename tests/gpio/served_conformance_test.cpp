@@ -48,8 +48,8 @@ public:
     static bool takes(const std::string& command, const std::string& rest) {
         const std::string what = rest.substr(0, rest.find(' '));
         const bool machine = command == "machine" && (what == "plate" || what == "probes" || what == "homes");
-        const bool numbers = command == "needs" && rest.find("numbers") != std::string::npos;
-        return machine || !(numbers || command == "machine" || command == "told" || command == "way");
+        const bool lacks = command == "needs" && (rest.find("numbers") != std::string::npos || what == "outputs");
+        return machine || !(lacks || command == "machine" || command == "told" || command == "way");
     }
 
 private:

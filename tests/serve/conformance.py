@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The cases of tests/controller/conformance.txt, by TCP and by a pseudo terminal: conformance.py TOOL [--modbus].
 
---modbus: by TCP, on three simulated Modbus drives, without the cases that need a probe.
+--modbus: by TCP, on three simulated Modbus drives, without the cases that need a probe or outputs.
 
 Each case begins with a reset machine: a new server for each would take longer. What only a machine in virtual time can do is left out, with the
 cases that need it; a wait that is too long on a busy host changes no answer of the others.
@@ -97,7 +97,7 @@ def served(tool, folder, kind):
 
 def main():
     tool, modbus = sys.argv[1], "--modbus" in sys.argv[2:]
-    without = {"clock", "probe"} if modbus else {"clock"}
+    without = {"clock", "probe", "outputs"} if modbus else {"clock"}
     run, failed = 0, 0
     for kind in ("modbus",) if modbus else ("tcp", "pty"):
         with tempfile.TemporaryDirectory() as folder, served(tool, folder, kind) as server:

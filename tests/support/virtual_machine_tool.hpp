@@ -56,6 +56,7 @@ public:
     std::uint32_t inputs = 0;
     Alarm alarm = Alarm::none;
     bool known = true;
+    bool has_outputs = true;
     bool home_found = true;
     std::int32_t input = 0;          // what input 1 answers, after spindle_ms
     std::uint32_t spindle_ms = 0;    // that it takes to its speed
@@ -100,6 +101,7 @@ public:
         out.waypoint = out.executes ? queue_.front().waypoint : 0;
         out.known = known;
         out.spindle_ready = now_ >= spindle_at_;
+        out.spindle_stands = now_ >= stands_at_;
         out.input = input;
         const bool contact = plate && to_mm(position_[2]) <= *plate;
         out.inputs = inputs | (contact ? InputBits::probe : 0U);
@@ -113,9 +115,15 @@ public:
     void obey(const ProgramEvent& event) noexcept override {
         orders.push_back(std::to_string(static_cast<int>(event.kind)) + " " +
                          std::to_string(event.value.raw / Decimal::one));
-        spindle_at_ = now_ + spindle_ms;
+        const bool stops = event.kind == EventKind::spindle_stop; // obeyed at once, and then it runs out
+        spindle_at_ = stops ? now_ : now_ + spindle_ms;
+        stands_at_ = stops && turned_ ? now_ + spindle_ms : stands_at_;
+        turned_ = !stops && (turned_ || event.kind == EventKind::spindle_clockwise);
     }
     [[nodiscard]] bool has_input(std::int32_t number) const noexcept override { return number == 1; }
+    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override {
+        return has_outputs;
+    }
     void watch_probe(bool away) noexcept override {
         touched_.reset();
         away_ = away;
@@ -189,6 +197,8 @@ private:
     std::uint32_t home_axes_ = 0;
     std::uint32_t halt_at_ = 0; // 0: it does not halt
     std::uint32_t spindle_at_ = 0;
+    std::uint32_t stands_at_ = 0; // the spindle
+    bool turned_ = false;         // it has
     double distance_ = 0.0;
     bool away_ = false;
     bool moves_ = false;

@@ -5,7 +5,7 @@
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/controller/alarm.hpp"
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/output_list.hpp"
 
 namespace splinefeed {
 
@@ -27,10 +27,11 @@ struct MachineReading {
     bool executes = false;        ///< a segment, of this waypoint:
     std::uint32_t waypoint = 0;
     bool known = true;         ///< the position is that of the machine; false: it has to home
-    bool spindle_ready = true; ///< the spindle turns as it was told, or stands; the input of M66 has answered
-    std::int32_t input = 0;    ///< that answer: 0, 1, or -1 after its time
-    std::uint32_t inputs = 0;  ///< those that are active, InputBits
-    bool touched = false;      ///< the probe has changed as watch_probe() said, at touched_at
+    bool spindle_ready = true; ///< the orders are carried out: the spindle has its speed; the input of M66 has answered
+    bool spindle_stands = true; ///< it is known to; counts where it was told to
+    std::int32_t input = 0;     ///< that answer: 0, 1, or -1 after its time
+    std::uint32_t inputs = 0;   ///< those that are active, InputBits
+    bool touched = false;       ///< the probe has changed as watch_probe() said, at touched_at
     PerAxis<Position> touched_at{};
     HomingPhase homing = HomingPhase::none;
     Alarm alarm = Alarm::none;       ///< as long as its cause lasts
@@ -39,7 +40,7 @@ struct MachineReading {
     Decimal feed_mm_min{};           ///< speed along the path
 };
 
-class ControlledMachine {
+class ControlledMachine : public OutputList {
 public:
     [[nodiscard]] virtual MachineReading read() noexcept = 0;
     /// Spindle, coolant, outputs: at once, or when the segments that were submitted before are executed, as the event's
@@ -47,6 +48,8 @@ public:
     virtual void obey(const ProgramEvent& event) noexcept = 0;
     /// Whether it reads that input of M66 P; then obey() begins to wait for it.
     [[nodiscard]] virtual bool has_input(std::int32_t /*number*/) const noexcept { return false; }
+    /// By default it has none: what would switch one is refused.
+    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override { return false; }
     /// That wait is given up. Other orders do not end it.
     virtual void forget_input() noexcept {}
     /// From now on the next contact, or the loss of it, is to be noted with its place.

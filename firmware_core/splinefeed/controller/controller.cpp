@@ -3,6 +3,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // a firmware has no strlen
+
 namespace {
 
 constexpr int most_free_moves = 100;
@@ -12,47 +14,51 @@ constexpr int most_free_moves = 100;
 Controller::Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
                        Memory memory) noexcept
     : settings_(&settings), motion_(&motion), machine_(&machine), lines_(memory.lines), answers_(memory.answers),
-      spindle_(machine), reading_(machine.read()) {
+      spindle_(settings, machine), reading_(machine.read()) {
     SPLINEFEED_ASSERT(memory.answers.size() >= least_answers);
     motion_->place(reading_.position);
+    motion_->interpreter().set_outputs(machine);
     locked_ = !reading_.known;
 }
 
 void Controller::greet() noexcept {
     answers_.end_line().put("Grbl 1.1h ['$' for help]").end_line();
-    if (locked_ || sleep_) {
+    if (is_locked()) {
         say("'$H'|'$X' to unlock");
     }
 }
 
 void Controller::connect() noexcept {
     answers_.clear();
-    lines_.drop_partial();
+    drop_partial();
+    alone_ = false;
     of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
     status_.refresh();
     greet();
-    if (held_) {
+    if (mode_ == Mode::held) {
         say("Held: '~' goes on, a reset ends the program");
     }
 }
 
 void Controller::disconnect() noexcept {
-    lines_.drop_partial();
-    if (state() == ControllerState::run || state() == ControllerState::jog) {
+    drop_partial();
+    const ControllerState now = state();
+    if (now == ControllerState::run || now == ControllerState::jog || now == ControllerState::home) {
         hold();
     }
-    if (ending_ != Ending::none || task_ == Task::home) { // what would begin behind that has nobody to watch it
+    if (ending_ != Ending::none) { // what would begin behind that has nobody to watch it
         forget_lines();
     }
+    alone_ = true;
+    byte_ms_ = now_ms_;
 }
 
 void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept {
     now_ms_ = now_ms;
     byte_ms_ = bytes.empty() ? byte_ms_ : now_ms;
     for (const char c : bytes) {
-        const RealtimeByte byte = realtime_byte(static_cast<std::uint8_t>(c));
-        const bool asks = c == '?' || c == '~'; // in a comment it is text
-        if (byte.kind == RealtimeKind::none || (asks && lines_.in_comment())) {
+        const RealtimeByte byte = bytes_.take(static_cast<std::uint8_t>(c), lines_.in_comment());
+        if (byte.kind == RealtimeKind::none) {
             const std::size_t before = lines_.lines();
             if (!lines_.add(c)) {
                 raise(Alarm::lines_lost);
@@ -81,12 +87,12 @@ void Controller::act(RealtimeByte byte) noexcept {
     case RealtimeKind::jog_cancel: cancel_jog(); break;
     case RealtimeKind::single_block: switch_single_block(); break;
     case RealtimeKind::spindle_stop:
-        if (held_ && stands()) {
+        if (mode_ == Mode::held && stands()) {
             spindle_.toggle_spindle();
         }
         break;
-    case RealtimeKind::flood: spindle_.toggle(EventKind::flood_on); break;
-    case RealtimeKind::mist: spindle_.toggle(EventKind::mist_on); break;
+    case RealtimeKind::flood: toggle(EventKind::flood_on); break;
+    case RealtimeKind::mist: toggle(EventKind::mist_on); break;
     case RealtimeKind::feed_override:
     case RealtimeKind::rapids_override:
     case RealtimeKind::spindle_override:
@@ -107,55 +113,51 @@ void Controller::set_overrides() noexcept {
     }
 }
 
+void Controller::toggle(EventKind coolant) noexcept {
+    const ControllerState now = state();
+    const bool may = now == ControllerState::idle || now == ControllerState::run || now == ControllerState::hold;
+    if (may && machine_->has_output(coolant, 0)) {
+        spindle_.toggle(coolant);
+    }
+}
+
 void Controller::hold() noexcept {
-    if (jogging_) {
-        cancel_jog();
-    } else if (!is_locked() && !check_ && ending_ == Ending::none && task_ != Task::home) {
-        held_ = true;
+    cancel_jog();
+    if (task_ == Task::home) {
+        stop_quickly(Alarm::homing_reset);
+    } else if (!jogging_ && !is_locked() && ending_ == Ending::none && take(ModeEvent::hold)) {
         motion_->hold();
     }
 }
 
 void Controller::resume() noexcept {
     reading_ = machine_->read();
-    if (door_) {
-        if ((reading_.inputs & InputBits::door) != 0) {
-            say("The door is open: close it, then '~'");
-            return;
-        }
-        spindle_.restore();
-        closes_ = true;
-        refuses_ = false;
+    if (in_door() && (reading_.inputs & InputBits::door) != 0) {
+        say("The door is open: close it, then '~'");
         return;
     }
-    if (reading_.alarm != Alarm::none || ending_ != Ending::none) {
+    if (!in_door() && (reading_.alarm != Alarm::none || ending_ != Ending::none)) {
         return;
     }
-    tool_ = refuses_ = false;
-    steps_ = !held_ && waits_for_step();
-    if (held_) {
-        held_ = false;
+    refused_lines_ = refused_lines_ == all_lines ? lines_.lines() : refused_lines_;
+    const bool held = mode_ == Mode::held;
+    pace_ = !held && waits_for_step() ? Pace::step : pace_;
+    if (take(ModeEvent::resume)) {
         spindle_.restore();
+    }
+    if (held) {
         motion_->resume();
     }
 }
 
 void Controller::open_door() noexcept {
-    if (door_ || is_locked() || check_) {
-        return;
-    }
     if (task_ == Task::home) {
-        machine_->quick_stop();
-        quick_ = true;
-        raise(Alarm::homing_door);
-        return;
+        stop_quickly(Alarm::homing_door);
+    } else if (!is_locked() && take(ModeEvent::door)) {
+        cancel_jog();
+        motion_->hold();
+        spindle_.suspend();
     }
-    cancel_jog();
-    held_ = false;
-    door_ = true;
-    closes_ = false;
-    motion_->hold();
-    spindle_.suspend();
 }
 
 // A line that waits will be executed.
@@ -163,21 +165,27 @@ ControllerState Controller::state() const noexcept {
     const ControllerState now = activity();
     return now != ControllerState::idle || lines_.lines() == 0 ? now
            : waits_for_step()                                  ? ControllerState::hold
+           : lines_.begins("$J="sv)                            ? ControllerState::jog
                                                                : ControllerState::run;
 }
 
 ControllerState Controller::activity() const noexcept {
-    if (sleep_ || task_ == Task::home) {
-        return sleep_ ? ControllerState::sleep : ControllerState::home;
+    if (task_ == Task::home) {
+        return ControllerState::home;
     }
-    return is_locked()                                                        ? ControllerState::alarm
-           : check_                                                           ? ControllerState::check
-           : door_                                                            ? ControllerState::door
-           : held_ || ending_ == Ending::reset || ending_ == Ending::stop     ? ControllerState::hold
-           : jogging_                                                         ? ControllerState::jog
-           : tool_                                                            ? ControllerState::tool
-           : task_ != Task::none || !motion_->exhausted() || !reading_.stands ? ControllerState::run
-                                                                              : ControllerState::idle;
+    if (is_locked() && mode_ != Mode::sleep) {
+        return ControllerState::alarm;
+    }
+    if (mode_ == Mode::ready || mode_ == Mode::tool) {
+        if (ending_ == Ending::reset || ending_ == Ending::stop) {
+            return ControllerState::hold;
+        }
+        if (jogging_) {
+            return ControllerState::jog;
+        }
+    }
+    const bool moves = task_ != Task::none || !motion_->exhausted() || !reading_.stands;
+    return mode_ == Mode::ready && moves ? ControllerState::run : shown_in(mode_);
 }
 
 void Controller::write_status(bool all) noexcept {
@@ -187,17 +195,16 @@ void Controller::write_status(bool all) noexcept {
     reading_ = machine_->read();
     StatusReport::Content content;
     content.state = state();
-    content.part = closes_ ? 3 : stands() ? 0 : 1;
+    content.part = mode_ == Mode::closing ? 3 : stands() && (!in_door() || spindle_.settles()) ? 0 : 1;
     content.reading = &reading_;
     content.offsets = &motion_->interpreter().offsets();
     content.spindle = &spindle_;
     content.overrides = overrides_;
-    content.free_moves = task_ == Task::line ? 0 : most_free_moves;
+    content.free_moves = task_ == Task::line || task_ == Task::rest ? 0 : most_free_moves;
     const auto most = static_cast<std::size_t>(settings_->receive_bytes);
     content.free_bytes = lines_.room() < most ? lines_.room() : most;
     content.line = reading_.executes && !jogging_ ? motion_->line_of(reading_.waypoint) : 0;
-    status_.mask = sender_.report_mask;
-    status_.inches = sender_.inches;
+    content.sender = sender_;
     status_.write(content, *settings_, all, answers_);
 }
 

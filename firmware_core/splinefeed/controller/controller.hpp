@@ -14,6 +14,8 @@
 #include "splinefeed/controller/spindle_orders.hpp"
 #include "splinefeed/controller/status_report.hpp"
 
+#include <utility>
+
 namespace splinefeed {
 
 /// No I/O, no heap, no clock of its own. Call it from one thread:
@@ -71,9 +73,13 @@ private:
 
     static constexpr std::size_t answer_room = 2048; // of the longest answer
     static constexpr std::size_t report_room = 256;
+    static constexpr std::size_t all_lines = SIZE_MAX; // that come until '~'
 
-    /// What is done for a line that was taken.
-    enum class Task : std::uint8_t { none, line, jog, dwell, spindle, input, probe, home };
+    using Mode = ControllerMode;
+    /// What is done for a line that was taken. `rest`: its next item needs the machine at rest.
+    enum class Task : std::uint8_t { none, line, rest, jog, dwell, spindle, tool, input, probe, touched, home };
+    /// Block by block; `step`: the next one may begin.
+    enum class Pace : std::uint8_t { flows, single, step };
     /// Why the motion comes to its end.
     enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
 
@@ -82,11 +88,18 @@ private:
     void hold() noexcept;
     void resume() noexcept;
     void open_door() noexcept;
+    void toggle(EventKind coolant) noexcept;
     void set_overrides() noexcept;
     void write_status(bool all) noexcept;
     [[nodiscard]] ControllerState activity() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
-    [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_ || sleep_; }
+    [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_; }
+    bool take(ModeEvent event) noexcept {
+        const Mode before = std::exchange(mode_, mode_behind(mode_, event));
+        return mode_ != before;
+    }
+    [[nodiscard]] bool in_door() const noexcept { return mode_ == Mode::door || mode_ == Mode::closing; }
+    [[nodiscard]] bool holds() const noexcept { return mode_ == Mode::held || in_door(); }
     // However many are asked for, reports leave room for answers: without it no line is executed.
     [[nodiscard]] bool may_report() const noexcept { return answers_.room() >= answer_room + report_room; }
     void say(std::string_view text) noexcept { answers_.put("[MSG:").put(text).put(']').end_line(); }
@@ -99,15 +112,20 @@ private:
     void execute_line() noexcept;
     void execute_block(std::string_view text) noexcept;
     void refuse(LineError error) noexcept;
-    void refuse_block(const BlockStatus& status) noexcept;
+    void refuse_behind(LineError error) noexcept;
+    void refuse_block(const BlockStatus& status, bool jog = false) noexcept;
     void accept() noexcept;
     [[nodiscard]] bool answers_nobody() noexcept;
     [[nodiscard]] bool waits_for_step() const noexcept;
     void switch_single_block() noexcept;
+    void drop_partial() noexcept {
+        bytes_.restart();
+        lines_.drop_partial();
+        cancelled_lines_ = cancelled_lines_ < lines_.lines() ? cancelled_lines_ : lines_.lines();
+    }
     void forget_lines() noexcept {
         lines_.clear();
-        refused_lines_ = of_another_ = 0;
-        refuses_ = false;
+        refused_lines_ = cancelled_lines_ = of_another_ = 0;
     }
 
     // controller_motion.cpp
@@ -119,10 +137,10 @@ private:
     void end_task() noexcept;
     void drop_task() noexcept;
     void pause(std::string_view sentence) noexcept;
-    void take_input() noexcept;
     void begin_probe() noexcept;
     [[nodiscard]] bool finish_probe() noexcept;
-    [[nodiscard]] bool finish_home() noexcept;
+    [[nodiscard]] bool go_home() noexcept;
+    [[nodiscard]] bool may_begin() noexcept;
     [[nodiscard]] Supply supply(bool dry) const noexcept;
     void watch() noexcept;
 
@@ -132,12 +150,14 @@ private:
     void settle() noexcept;
     void end_reset() noexcept;
     void cancel_jog() noexcept;
+    void stop_quickly(Alarm alarm) noexcept;
     void raise(Alarm alarm, std::string_view sentence = {}) noexcept;
 
     const ControllerSettings* settings_;
     LineMotion* motion_;
     ControlledMachine* machine_;
     LineStore lines_;
+    RealtimeBytes bytes_;
     AnswerText answers_;
     SpindleOrders spindle_;
     Overrides overrides_{};
@@ -152,28 +172,22 @@ private:
     std::uint32_t block_ms_ = 0; // when the last block was executed
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
-    std::size_t refused_lines_ = 0; // that had come when one was refused
-    std::size_t of_another_ = 0;    // lines that the sender before has sent: they have no answer
-    std::size_t noted_ = 0;         // length of the machine's note that was said last
-    unsigned lines_left_ = 0;       // that this call may begin
+    std::size_t refused_lines_ = 0;   // that had come when one was refused, or all_lines
+    std::size_t cancelled_lines_ = 0; // that had come when jogs were cancelled
+    std::size_t of_another_ = 0;      // lines that the sender before has sent: they have no answer
+    std::uint32_t home_axes_ = 0;     // that are still to begin their homing
+    std::size_t noted_ = 0;           // length of the machine's note that was said last
+    unsigned lines_left_ = 0;         // that this call may begin
     LineError refusal_ = LineError::none;
+    Mode mode_ = Mode::ready;
     Task task_ = Task::none;
     Ending ending_ = Ending::none;
+    Pace pace_ = Pace::flows;
     Alarm alarm_ = Alarm::none;
-    bool refuses_ = false; // until '~': a refused line holds the motion, and more may be on its way
-    bool locked_ = false;  // until $H or $X, without an alarm
-    bool quick_ = false;   // the machine stops by itself: where it then stands the motion goes on
-    bool held_ = false;
-    bool door_ = false;
-    bool closes_ = false; // the door's hold ends when the spindle has its speed
-    bool check_ = false;
-    bool sleep_ = false;
-    bool tool_ = false;
-    bool single_ = false; // block by block:
-    bool steps_ = false;  // the next one may begin
+    bool locked_ = false; // until $H or $X, whatever alarm_ is
+    bool quick_ = false;  // of ending_: the machine stops by itself, and where it then stands the motion goes on
     bool jogging_ = false;
-    bool touched_ = false; // the probe's move ends
-    bool rests_ = false;   // the line's next item needs the machine at rest
+    bool alone_ = false; // the sender has gone
 };
 
 } // namespace splinefeed

@@ -6,19 +6,23 @@ namespace splinefeed {
 
 using namespace std::string_view_literals; // a firmware has no strlen
 
+// Also of jogs that wait, however far behind: their lines will have ok, and do nothing.
 void Controller::cancel_jog() noexcept {
+    cancelled_lines_ = lines_.lines() + (lines_.has_partial() ? 1U : 0U);
     if (!jogging_ || ending_ != Ending::none) {
         return;
     }
     if (task_ == Task::jog) {
         end_task();
     }
-    while (lines_.lines() > 0 && lines_.begins("$J="sv)) {
-        lines_.take(line_);
-        accept();
-    }
     ending_ = Ending::jog;
     brake();
+}
+
+void Controller::stop_quickly(Alarm alarm) noexcept {
+    machine_->quick_stop();
+    quick_ = true;
+    raise(alarm);
 }
 
 // The machine's own stop, where it has one: its segments need not be travelled to their end first.
@@ -32,12 +36,10 @@ void Controller::brake() noexcept {
 void Controller::begin_ending(Ending ending) noexcept {
     reading_ = machine_->read();
     const bool second = ending_ == Ending::reset || ending_ == Ending::stop;
-    if ((second && !stands()) || task_ == Task::home) {
-        machine_->quick_stop();
-        const Alarm alarm = task_ == Task::home ? Alarm::homing_reset : Alarm::stopped_in_motion;
-        quick_ = true;
+    const bool homes = task_ == Task::home;
+    if (homes || (second && !stands())) {
         ending_ = Ending::reset;
-        raise(alarm);
+        stop_quickly(homes ? Alarm::homing_reset : Alarm::stopped_in_motion);
         forget_lines();
         spindle_.stop_all();
         return;
@@ -58,8 +60,8 @@ void Controller::begin_ending(Ending ending) noexcept {
     if (ending != Ending::reset) {
         return;
     }
-    quick_ = quick_ || sleep_ || reading_.alarm != Alarm::none; // it may stand elsewhere then
-    if (sleep_) {
+    quick_ = quick_ || mode_ == Mode::sleep || reading_.alarm != Alarm::none; // it may stand elsewhere then
+    if (mode_ == Mode::sleep) {
         machine_->enable(true);
     }
     if (reading_.alarm != Alarm::none) {
@@ -77,13 +79,14 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
         refuse(LineError::locked);
     }
     alarm_ = alarm;
+    locked_ = locked_ || row.stays;
+    take(ModeEvent::alarm);
     answers_.put("ALARM:").integer(static_cast<std::int64_t>(alarm)).end_line();
     say(sentence.empty() ? row.sentence : sentence);
     if (row.needs_reset) {
         spindle_.stop_all();
     }
     quick_ = quick_ || alarm == Alarm::drive_fault || alarm == Alarm::link_lost || alarm == Alarm::emergency_stop;
-    held_ = door_ = closes_ = tool_ = false;
     refused_lines_ = lines_.lines(); // they were sent before
     refusal_ = LineError::locked;
     if (ending_ == Ending::none) {
@@ -105,15 +108,15 @@ void Controller::settle() noexcept {
     }
     const Ending ending = ending_;
     ending_ = Ending::none;
-    quick_ = jogging_ = rests_ = false;
-    held_ = ending == Ending::jog ? held_ : false;
-    if (door_ && ending != Ending::reset) { // it cancelled a jog
-        motion_->hold();
-    }
+    quick_ = jogging_ = false;
     if (ending == Ending::reset) {
         end_reset();
     } else if (ending == Ending::stop) {
+        take(ModeEvent::stop);
         say("Stop");
+    }
+    if (in_door()) { // it cancelled a jog
+        motion_->hold();
     }
     set_overrides();
 }
@@ -126,11 +129,11 @@ void Controller::end_reset() noexcept {
     offsets.g92_applies = false;
     interpreter.restart();
     interpreter.restore(offsets);
-    locked_ = locked_ || sleep_ || row_of(alarm_).stays;
     alarm_ = Alarm::none;
     overrides_ = {};
     line_number_ = 0;
-    check_ = sleep_ = tool_ = door_ = closes_ = single_ = steps_ = false;
+    take(ModeEvent::reset);
+    pace_ = Pace::flows;
     status_.refresh();
     greet();
 }

@@ -14,6 +14,7 @@ struct DollarCommands {
     struct Row {
         std::string_view word; // in lower case
         bool whole;            // nothing stands behind it
+        bool idle;             // only in Idle and Alarm
         void (*run)(Controller&, TextCursor&);
     };
 
@@ -51,12 +52,12 @@ struct DollarCommands {
         c.refuse(LineError::setting_disabled);
     }
     static void check(Controller& c, TextCursor& /*rest*/) noexcept {
-        if (c.check_) {
+        if (c.mode_ == ControllerMode::check) {
             c.say("Disabled");
             c.accept();
             c.begin_ending(Controller::Ending::reset);
         } else if (c.activity() == ControllerState::idle) {
-            c.check_ = true;
+            c.take(ModeEvent::check);
             c.say("Enabled");
             c.accept();
         } else {
@@ -67,7 +68,7 @@ struct DollarCommands {
         if (c.reading_.alarm != Alarm::none) {
             c.say("The cause of the alarm lasts: end it, then reset");
             c.refuse(c.reading_.alarm == Alarm::emergency_stop ? LineError::emergency_stop : LineError::locked);
-        } else if (c.sleep_ || row_of(c.alarm_).needs_reset) {
+        } else if (c.mode_ == ControllerMode::sleep || row_of(c.alarm_).needs_reset) {
             c.say("Reset to continue");
             c.refuse(LineError::locked);
         } else {
@@ -106,14 +107,14 @@ struct DollarCommands {
             c.refuse(LineError::not_now);
         } else {
             c.task_ = Controller::Task::home;
-            c.machine_->home(axes);
+            c.home_axes_ = axes;
         }
     }
     static void jog(Controller& c, TextCursor& rest) noexcept {
         const ControllerState state = c.activity();
         const bool ready = state == ControllerState::jog || state == ControllerState::idle ||
                            (state == ControllerState::tool && c.motion_->exhausted() && c.stands());
-        if (!ready || c.check_) {
+        if (!ready) {
             c.refuse(c.is_locked() ? LineError::locked : LineError::not_now);
             return;
         }
@@ -121,7 +122,7 @@ struct DollarCommands {
         BlockStatus status = c.motion_->interpreter().push_jog(text, c.line_number_);
         if (!status.ok()) {
             status.column = static_cast<std::uint16_t>(status.column > 0 ? status.column + rest.at() : 0);
-            c.refuse_block(status);
+            c.refuse_block(status, true);
             return;
         }
         c.jogging_ = true;
@@ -129,21 +130,13 @@ struct DollarCommands {
         c.task_ = Controller::Task::jog;
     }
     static void sleep(Controller& c, TextCursor& /*rest*/) noexcept {
-        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
-            c.refuse(LineError::not_now);
-            return;
-        }
         c.accept();
         c.say("Sleeping");
         c.spindle_.stop_all();
-        c.sleep_ = true;
+        c.locked_ = c.take(ModeEvent::sleep);
         c.machine_->enable(false);
     }
     static void clear_offsets(Controller& c, TextCursor& /*rest*/) noexcept {
-        if (c.activity() != ControllerState::idle && c.activity() != ControllerState::alarm) {
-            c.refuse(LineError::not_now);
-            return;
-        }
         WorkOffsets none;
         none.tool_number = c.motion_->interpreter().offsets().tool_number;
         c.motion_->interpreter().restore(none);
@@ -153,10 +146,11 @@ struct DollarCommands {
     static void setting(Controller& c, TextCursor& rest) noexcept;
 
     static constexpr Row rows[] = {
-        {"$$", true, settings},     {"$#", true, offsets},   {"$g", true, modes},   {"$i", false, build},
-        {"$n", true, startup},      {"$n", false, disabled}, {"$c", true, check},   {"$x", true, unlock},
-        {"$h", false, home},        {"$j=", false, jog},     {"$slp", true, sleep}, {"$rst=#", true, clear_offsets},
-        {"$rst=", false, disabled}, {"$", true, help},
+        {"$$", true, false, settings},     {"$#", true, false, offsets}, {"$g", true, false, modes},
+        {"$i", false, false, build},       {"$n", true, false, startup}, {"$n", false, false, disabled},
+        {"$c", true, false, check},        {"$x", true, false, unlock},  {"$h", false, false, home},
+        {"$j=", false, false, jog},        {"$slp", true, true, sleep},  {"$rst=#", true, true, clear_offsets},
+        {"$rst=", false, false, disabled}, {"$", true, false, help},
     };
 };
 
@@ -175,7 +169,13 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     constexpr std::int64_t shown = Decimal::one / 1000;
     const std::int64_t apart = value.raw - present.raw;
     std::int32_t whole = 0;
-    if ((n == 10 || n == 13) && to_integer(value, whole) && whole >= 0 && whole <= 255) {
+    if (n == 10 || n == 13) {
+        const std::int32_t most = n == 10 ? SenderSettings::most_mask : 1;
+        if (!to_integer(value, whole) || whole < 0 || whole > most) {
+            c.say(n == 10 ? "$10 has bits 0 to 8: reports have no modes and no substates"sv : "$13 is 0 or 1"sv);
+            c.refuse(LineError::setting_disabled);
+            return;
+        }
         c.sender_.report_mask = n == 10 ? whole : c.sender_.report_mask;
         c.sender_.inches = n == 13 ? whole != 0 : c.sender_.inches;
     } else if (apart > shown || apart < -shown) {
@@ -193,13 +193,16 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
 
 void Controller::execute_line() noexcept {
     TextCursor cursor(line_.view());
-    const bool late = refused_lines_ > 0 || refuses_; // it was sent before its sender knew
-    refused_lines_ -= refused_lines_ > 0 ? 1U : 0U;
+    const bool late = refused_lines_ > 0; // it was sent before its sender knew
+    refused_lines_ -= late && refused_lines_ != all_lines ? 1U : 0U;
+    TextCursor jog = cursor;
+    const bool cancelled = cancelled_lines_ > 0 && jog.take("$j="sv);
+    cancelled_lines_ -= cancelled_lines_ > 0 ? 1U : 0U;
     const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h';
     if (line_.too_long) {
         say("A line has at most 256 characters beside comments");
         refuse(LineError::too_long);
-    } else if (cursor.at_end()) {
+    } else if (cursor.at_end() || cancelled) {
         accept();
     } else if (late && moves) {
         refuse(refusal_);
@@ -209,7 +212,9 @@ void Controller::execute_line() noexcept {
         for (const DollarCommands::Row& row : DollarCommands::rows) {
             TextCursor rest = cursor;
             if (rest.take(row.word) && (!row.whole || rest.at_end())) {
-                row.run(*this, rest);
+                const ControllerState now = activity();
+                const bool fits = !row.idle || now == ControllerState::idle || now == ControllerState::alarm;
+                fits ? row.run(*this, rest) : refuse(LineError::not_now);
                 return;
             }
         }
@@ -222,20 +227,16 @@ void Controller::execute_block(std::string_view text) noexcept {
         refuse(LineError::locked);
         return;
     }
-    if (door_) {
-        refuse(LineError::door_open);
-        return;
-    }
     const bool begins = activity() == ControllerState::idle && now_ms_ - block_ms_ >= recount_ms;
     line_number_ = begins ? 1 : line_number_ + 1;
     block_ms_ = now_ms_;
     const BlockStatus status = motion_->interpreter().push(text, line_number_);
     if (!status.ok()) {
         refuse_block(status);
-    } else if (check_) {
+    } else if (mode_ == Mode::check) {
         motion_->leave_out();
         if (motion_->interpreter().has_ended()) {
-            motion_->interpreter().restart();
+            motion_->interpreter().begin_next();
         }
         accept();
     } else {
@@ -245,8 +246,8 @@ void Controller::execute_block(std::string_view text) noexcept {
 
 // What is not of a program, or will be refused, does not wait.
 bool Controller::waits_for_step() const noexcept {
-    const bool taken = !check_ && !is_locked() && !door_ && !jogging_ && !refuses_ && refused_lines_ == 0;
-    return single_ && !steps_ && taken && lines_.lines() > 0 && !lines_.begins("$"sv);
+    const bool taken = mode_ != Mode::check && !is_locked() && !in_door() && !jogging_ && refused_lines_ == 0;
+    return pace_ == Pace::single && taken && lines_.lines() > 0 && !lines_.begins("$"sv);
 }
 
 // Lines that wait do not begin because it ends.
@@ -254,9 +255,8 @@ void Controller::switch_single_block() noexcept {
     if (waits_for_step()) {
         hold();
     }
-    single_ = !single_;
-    steps_ = false;
-    say(single_ ? "Single block: '~' executes one"sv : "Single block is off"sv);
+    pace_ = pace_ == Pace::flows ? Pace::single : Pace::flows;
+    say(pace_ == Pace::single ? "Single block: '~' executes one"sv : "Single block is off"sv);
 }
 
 bool Controller::answers_nobody() noexcept {
@@ -277,9 +277,9 @@ void Controller::refuse(LineError error) noexcept {
     }
 }
 
-// Lines that had come before are refused, too, and what moves is held: the sender decides.
-void Controller::refuse_block(const BlockStatus& status) noexcept {
-    answers_.put("[MSG:Error: ").integer(line_number_);
+void Controller::refuse_block(const BlockStatus& status, bool jog) noexcept {
+    answers_.put("[MSG:Error: ");
+    jog ? answers_.put("jog") : answers_.integer(line_number_);
     if (status.column > 0) {
         answers_.put(':').integer(status.column);
     }
@@ -288,15 +288,20 @@ void Controller::refuse_block(const BlockStatus& status) noexcept {
         answers_.put(*text);
     }
     answers_.put(']').end_line();
-    refusal_ = line_error_of(status.error);
-    refuse(refusal_);
-    if (!settings_->holds_on_error || check_ || jogging_) {
+    refuse_behind(line_error_of(status.error));
+}
+
+// Lines that had come before are refused, too, and what moves is held: the sender decides.
+void Controller::refuse_behind(LineError error) noexcept {
+    refusal_ = error;
+    refuse(error);
+    if (!settings_->holds_on_error || mode_ == Mode::check || jogging_) {
         return;
     }
     refused_lines_ = lines_.lines();
     if (!motion_->exhausted()) {
         hold();
-        refuses_ = held_;
+        refused_lines_ = mode_ == Mode::held ? all_lines : refused_lines_;
     }
 }
 

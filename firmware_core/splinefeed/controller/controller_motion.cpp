@@ -28,9 +28,9 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
         if (quick_ || task_ == Task::home) {
             return Pull::starved;
         }
-        const Pull pull = motion_->next(out, supply(dry));
+        const Pull pull = may_begin() ? motion_->next(out, supply(dry)) : Pull::starved;
         ProgramEvent event;
-        while (!held_ && !door_ && motion_->take_event(event)) {
+        while (!holds() && motion_->take_event(event)) {
             carry_out(event);
         }
         if (pull == Pull::item || pull == Pull::busy) {
@@ -51,17 +51,22 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
     return Pull::starved;
 }
 
+// From standstill nothing moves before the spindle is as ordered, or while a tool is changed, but jogs.
+bool Controller::may_begin() noexcept {
+    return !motion_->at_rest() || ((mode_ != Mode::tool || jogging_) && spindle_.settles());
+}
+
 // Whether the motion waits for more lines. A stop that is planned stays: what the machine needs early, because its ring
 // begins to fill, does not end a motion whose lines come.
 Supply Controller::supply(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
-    if (waits || ending_ != Ending::none || rests_ || single_ || motion_->left_travel()) {
+    if (waits || ending_ != Ending::none || pace_ != Pace::flows || motion_->left_travel()) {
         return Supply::pauses;
     }
     const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
     if (motion_->at_rest()) {
-        const bool may_move = !held_ && !door_; // else it can wait, however slowly the lines come
-        return lines_.lines() == 0 && pauses && may_move ? Supply::pauses : Supply::flows;
+        // Held it can wait, however slowly the lines come.
+        return lines_.lines() == 0 && pauses && !holds() ? Supply::pauses : Supply::flows;
     }
     const bool takes_none = dry && (lines_left_ > 0 || lines_.lines() == 0);
     return !takes_none ? Supply::flows : pauses ? Supply::pauses : Supply::late;
@@ -81,15 +86,20 @@ void Controller::watch() noexcept {
     if (jogging_ && settings_->jog_timeout_ms > 0 && now_ms_ - byte_ms_ > settings_->jog_timeout_ms) {
         cancel_jog();
     }
-    if (task_ == Task::probe && reading_.touched && !touched_) {
-        touched_ = true;
+    const std::uint32_t most_ms = settings_->unattended_ms;
+    if (alone_ && spindle_.is_on() && most_ms > 0 && now_ms_ - byte_ms_ > most_ms) {
+        hold();
+        holds() ? spindle_.suspend() : spindle_.stop_all(); // in a hold '~' starts them again
+    }
+    if (task_ == Task::probe && reading_.touched) {
+        task_ = Task::touched;
         motion_->abort();
     }
     if ((reading_.inputs & InputBits::door) != 0) {
         open_door();
     }
-    if (closes_ && reading_.spindle_ready) {
-        door_ = closes_ = false;
+    if (mode_ == Mode::closing && spindle_.settles()) {
+        take(ModeEvent::settled);
         motion_->resume();
     }
 }
@@ -102,14 +112,16 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
-    if (lines_.lines() == 0 || lines_left_ == 0 || (tool_ && !lines_.begins("$"sv)) || waits_for_step()) {
+    const bool waits =
+        (mode_ == Mode::tool || (in_door() && refused_lines_ == 0)) && lines_.lines() > 0 && !lines_.begins("$"sv);
+    if (lines_.lines() == 0 || lines_left_ == 0 || waits || waits_for_step()) {
         return false;
     }
     if (motion_->pass_on() == LineProgress::full) { // of a curve that a pause of the input has ended
         return false;
     }
     --lines_left_;
-    steps_ = false;
+    pace_ = pace_ == Pace::step ? Pace::single : pace_;
     lines_.take(line_);
     execute_line();
     return true;
@@ -117,25 +129,37 @@ bool Controller::step() noexcept {
 
 bool Controller::go_on() noexcept {
     switch (task_) {
-    case Task::line: return go_on(motion_->pass_on());
+    case Task::line:
+    case Task::rest: return go_on(motion_->pass_on());
     case Task::jog: return go_on(motion_->pass_jog());
     case Task::dwell:
-        if (held_ || door_ || static_cast<std::int32_t>(now_ms_ - until_ms_) < 0) {
+        if (holds() || static_cast<std::int32_t>(now_ms_ - until_ms_) < 0) {
             return false;
         }
         break;
     case Task::spindle:
+    case Task::tool:
     case Task::input:
         reading_ = machine_->read();
-        if (!reading_.spindle_ready) {
+        if (!reading_.spindle_ready || !spindle_.settles()) {
             return false;
         }
         if (task_ == Task::input) {
-            take_input();
+            motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
+            if (reading_.input < 0) { // what depends on it is the operator's to decide
+                pause("M66: its input has not come in time: '~' goes on, a reset ends the program"sv);
+            }
+        } else if (task_ == Task::tool) {
+            take(ModeEvent::tool); // who changes it reaches for the spindle, which stands now
+            answers_.put("[MSG:Change to tool ")
+                .integer(motion_->waiting().event.number)
+                .put(": '~' goes on]")
+                .end_line();
         }
         break;
-    case Task::probe: return finish_probe();
-    case Task::home: return finish_home();
+    case Task::probe:
+    case Task::touched: return finish_probe();
+    case Task::home: return go_home();
     case Task::none: return false;
     }
     motion_->carried_out();
@@ -144,20 +168,20 @@ bool Controller::go_on() noexcept {
 }
 
 bool Controller::go_on(LineProgress progress) noexcept {
-    rests_ = false;
-    switch (progress) {
-    case LineProgress::done: end_task(); return true;
-    case LineProgress::full: return false;
-    case LineProgress::waits: break;
+    if (progress == LineProgress::done) {
+        end_task();
+    }
+    if (progress != LineProgress::waits) {
+        return progress == LineProgress::done;
     }
     if (motion_->waiting().needs_rest()) {
         reading_ = machine_->read();
-        rests_ = true;
-        if (held_ || door_ || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
+        task_ = Task::rest;
+        if (holds() || mode_ == Mode::tool || !motion_->exhausted() || !reading_.stands || motion_->left_travel()) {
             return false;
         }
-        rests_ = false;
     }
+    task_ = Task::line;
     return carry_out();
 }
 
@@ -195,7 +219,7 @@ bool Controller::carry_out() noexcept {
 }
 
 void Controller::pause(std::string_view sentence) noexcept {
-    held_ = true;
+    take(ModeEvent::hold);
     motion_->hold();
     say(sentence);
 }
@@ -218,13 +242,12 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
         pause("M66: there is no input of this number: '~' goes on, a reset ends the program"sv);
         return;
     case EventKind::tool_change:
-        tool_ = true;
         spindle_.stop_all();
-        answers_.put("[MSG:Change to tool ").integer(event.number).put(": '~' goes on]").end_line();
+        task_ = Task::tool;
         return;
     case EventKind::program_end:
         spindle_.stop_all();
-        motion_->interpreter().restart();
+        motion_->interpreter().begin_next();
         line_number_ = 0;
         say("Pgm End");
         return;
@@ -237,35 +260,24 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     }
 }
 
-// What depends on an input that did not come is the operator's to decide.
-void Controller::take_input() noexcept {
-    motion_->interpreter().report_input(Decimal::from_integer(reading_.input));
-    if (reading_.input < 0) {
-        pause("M66: its input has not come in time: '~' goes on, a reset ends the program"sv);
-    }
-}
-
 void Controller::begin_probe() noexcept {
     const ProbeCondition probe = motion_->waiting().probe;
-    touched_ = false;
-    if (!settings_->probes) {
-        motion_->restart();
-        task_ = Task::none;
-        say("The machine has no probe");
-        refusal_ = LineError::unsupported_word;
-        refused_lines_ = settings_->holds_on_error ? lines_.lines() : 0;
-        refuse(refusal_);
+    const bool touches = ((reading_.inputs & InputBits::probe) != 0) != probe.away;
+    if (settings_->probes && !touches) {
+        machine_->watch_probe(probe.away);
+        motion_->begin_waiting();
+        task_ = Task::probe;
         return;
     }
-    if (((reading_.inputs & InputBits::probe) != 0) != probe.away) {
-        motion_->restart();
-        end_task();
+    motion_->restart();
+    drop_task();
+    if (settings_->probes) {
         raise(Alarm::probe_at_start);
-        return;
+        accept();
+    } else {
+        say("The machine has no probe");
+        refuse_behind(LineError::unsupported_word);
     }
-    machine_->watch_probe(probe.away);
-    motion_->begin_waiting();
-    task_ = Task::probe;
 }
 
 bool Controller::finish_probe() noexcept {
@@ -285,20 +297,21 @@ bool Controller::finish_probe() noexcept {
         probe_.at[k] = to_decimal(contact ? reading_.touched_at[k] : place[k]);
     }
     probe_.contact = contact;
-    if (contact || !required) {
-        write_probe(probe_, settings_->program, sender_.inches, answers_);
-        end_task();
-        return true;
+    drop_task();
+    if (required && !contact) { // grbl's order: who waits for ok alone sees the alarm before
+        raise(Alarm::probe_without_contact);
     }
-    end_task();
-    raise(Alarm::probe_without_contact);
     write_probe(probe_, settings_->program, sender_.inches, answers_);
+    accept();
     return true;
 }
 
-bool Controller::finish_home() noexcept {
+bool Controller::go_home() noexcept {
+    if (home_axes_ != 0 && spindle_.settles()) {
+        machine_->home(std::exchange(home_axes_, 0U));
+    }
     reading_ = machine_->read();
-    if (reading_.homing == HomingPhase::busy) {
+    if (home_axes_ != 0 || reading_.homing == HomingPhase::busy) {
         return false;
     }
     task_ = Task::none;
@@ -308,7 +321,7 @@ bool Controller::finish_home() noexcept {
         refuse(LineError::locked);
         raise(Alarm::homing_not_found, reading_.alarm_sentence);
     } else {
-        locked_ = !reading_.known && (locked_ || row_of(alarm_).stays); // the other axes, too
+        locked_ = locked_ && !reading_.known; // the other axes, too
         alarm_ = Alarm::none;
         if (locked_) {
             say("Axes are still to be homed: '$H'|'$X' to unlock");

@@ -55,7 +55,9 @@ struct ControllerSettings {
     Decimal home_latch_mm_min{};
     Decimal home_seek_mm_min{};
     std::uint32_t jog_timeout_ms = 1000; ///< a jog ends so long after the last byte of its sender; 0: never
-    std::int32_t receive_bytes = 1024;   ///< what senders may count on
+    /// Spindle and coolant go off so long after the sender has gone, and the machine is held; 0: never.
+    std::uint32_t unattended_ms = 60'000;
+    std::int32_t receive_bytes = 1024; ///< what senders may count on
     /// Bounds of a call of the controller, for a main loop that has other work: lines that are begun, and steps of
     /// planning as Trajectory::next() counts them.
     unsigned lines_a_call = WorkBudget::unlimited;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ControllerState: what the machine does, in the words of grbl.
+// ControllerState: what the machine does, in the words of grbl. ControllerMode: what the operator has made of it.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,43 @@ enum class ControllerState : std::uint8_t {
     constexpr std::string_view names[] = {"Idle", "Run",   "Hold", "Jog",   "Alarm",
                                           "Door", "Check", "Home", "Sleep", "Tool"};
     return names[static_cast<unsigned>(state)];
+}
+
+/// Beside these the machine may be locked, and motion may come to an end.
+enum class ControllerMode : std::uint8_t {
+    ready,
+    held,
+    tool, ///< a tool is changed by hand
+    door,
+    closing, ///< the door's hold ends when the spindle has its speed
+    check,
+    sleep,
+    count
+};
+
+/// As the status shows it, where nothing else is to be shown.
+[[nodiscard]] constexpr ControllerState shown_in(ControllerMode mode) noexcept {
+    using enum ControllerState;
+    constexpr ControllerState shown[] = {idle, hold, tool, door, door, check, sleep};
+    return shown[static_cast<unsigned>(mode)];
+}
+
+enum class ModeEvent : std::uint8_t { hold, tool, door, resume, settled, check, sleep, stop, alarm, reset, count };
+
+/// What each event makes of each mode. A mode that stays the same: the event does nothing.
+[[nodiscard]] constexpr ControllerMode mode_behind(ControllerMode mode, ModeEvent event) noexcept {
+    using enum ControllerMode;
+    constexpr ControllerMode table[static_cast<unsigned>(count)][static_cast<unsigned>(ModeEvent::count)] = {
+        //  hold     tool     door     resume   settled  check    sleep    stop     alarm    reset
+        {held, tool, door, ready, ready, check, sleep, ready, ready, ready},         // ready
+        {held, held, door, ready, held, held, held, ready, ready, ready},            // held
+        {held, tool, door, ready, tool, tool, tool, ready, ready, ready},            // tool
+        {door, door, door, closing, door, door, door, door, ready, ready},           // door
+        {held, closing, door, closing, ready, closing, closing, door, ready, ready}, // closing
+        {check, check, check, check, check, check, check, check, check, ready},      // check
+        {sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, ready},      // sleep
+    };
+    return table[static_cast<unsigned>(mode)][static_cast<unsigned>(event)];
 }
 
 } // namespace splinefeed

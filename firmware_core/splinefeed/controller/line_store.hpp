@@ -35,6 +35,8 @@ public:
 
     /// Complete lines.
     [[nodiscard]] std::size_t lines() const noexcept { return lines_; }
+    /// Whether something has come of a line that has no end yet.
+    [[nodiscard]] bool has_partial() const noexcept { return partial_ > 0; }
     /// Whether the first one begins like this, spaces left out. @pre lines() > 0
     [[nodiscard]] bool begins(std::string_view word) const noexcept;
     /// Takes the first one out. @pre lines() > 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RealtimeByte: the bytes of a sender that act at once, wherever they stand.
+// RealtimeByte: the bytes of a sender that act at once.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +30,23 @@ enum class RealtimeKind : std::uint8_t {
 struct RealtimeByte {
     RealtimeKind kind = RealtimeKind::none;
     std::int16_t value = 0;
+    bool stops = false; ///< it acts within a comment, too
 };
 
-/// What a byte means: grbl 1.1's. From 0x80 on a byte is never part of a line: 0xc0 to 0xff do nothing, so those that
-/// come as UTF-8 (0xc2 0x85) act as well.
+/// What a byte that stands alone means: grbl 1.1's. From 0x80 on none is ever part of a line.
 [[nodiscard]] RealtimeByte realtime_byte(std::uint8_t byte) noexcept;
+
+/// Tells the bytes that act from text, as they come. Text is UTF-8: what follows a lead byte from 0xc3 on belongs to
+/// its character and does nothing. Alone, or behind 0xc2 (0xc2 0x85), such a byte acts.
+class RealtimeBytes {
+public:
+    /// What the next byte means. @param in_comment  it stands in a comment
+    [[nodiscard]] RealtimeByte take(std::uint8_t byte, bool in_comment) noexcept;
+    /// Another sender begins.
+    void restart() noexcept { follow_ = 0; }
+
+private:
+    int follow_ = 0; // bytes of the present character that may come
+};
 
 } // namespace splinefeed

@@ -9,8 +9,11 @@ namespace splinefeed {
 
 /// The two that a sender may set.
 struct SenderSettings {
-    std::int32_t report_mask = 3; ///< $10
-    bool inches = false;          ///< $13
+    static constexpr std::int32_t most_mask = 511; ///< bits 3 to 8 ask for what reports have anyway
+
+    /// $10: bit 0 machine position, else that of the program; bit 1 buffers, bit 2 line
+    std::int32_t report_mask = 3;
+    bool inches = false; ///< $13
 };
 
 /// The machine file states the numbers: nothing changes them from here.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/controller/spindle_orders.hpp"
 
+#include <utility>
+
 namespace splinefeed {
 
 void SpindleOrders::tell(EventKind kind, Decimal value) noexcept {
@@ -11,13 +13,28 @@ void SpindleOrders::tell(EventKind kind, Decimal value) noexcept {
 }
 
 Decimal SpindleOrders::told_rpm() const noexcept {
-    const bool turns = state_ != SpindleState::stopped && !suspended_ && !spindle_suspended_;
-    return turns ? Decimal{product_quotient(rpm_.raw, percent_, 100).raw} : Decimal{};
+    if (!turns() || rpm_.raw == 0) {
+        return {};
+    }
+    const Decimal rpm{product_quotient(rpm_.raw, percent_, 100).raw};
+    return rpm > settings_->max_rpm ? settings_->max_rpm : rpm < settings_->min_rpm ? settings_->min_rpm : rpm;
+}
+
+bool SpindleOrders::settles() noexcept {
+    if (awaited_) {
+        const MachineReading reading = machine_->read();
+        awaited_ = !reading.spindle_ready || !(turns() || reading.spindle_stands);
+    }
+    return !awaited_;
+}
+
+void SpindleOrders::order_spindle() noexcept {
+    tell_spindle();
+    awaited_ = true;
 }
 
 void SpindleOrders::tell_spindle() noexcept {
-    const bool turns = state_ != SpindleState::stopped && !suspended_ && !spindle_suspended_;
-    tell(!turns                              ? EventKind::spindle_stop
+    tell(!turns()                            ? EventKind::spindle_stop
          : state_ == SpindleState::clockwise ? EventKind::spindle_clockwise
                                              : EventKind::spindle_counterclockwise,
          told_rpm());
@@ -61,7 +78,7 @@ bool SpindleOrders::obey(const ProgramEvent& event) noexcept {
     }
     rpm_ = state_ == SpindleState::stopped ? rpm_ : event.value;
     spindle_suspended_ = false;
-    tell_spindle();
+    order_spindle();
     return true;
 }
 
@@ -80,27 +97,32 @@ void SpindleOrders::toggle(EventKind coolant) noexcept {
 
 void SpindleOrders::toggle_spindle() noexcept {
     spindle_suspended_ = !spindle_suspended_ && state_ != SpindleState::stopped;
-    tell_spindle();
+    order_spindle();
 }
 
 void SpindleOrders::suspend() noexcept {
     suspended_ = true;
-    tell_spindle();
+    if (state_ != SpindleState::stopped) {
+        order_spindle();
+    }
     tell_coolant();
 }
 
 void SpindleOrders::restore() noexcept {
-    suspended_ = spindle_suspended_ = false;
-    if (state_ != SpindleState::stopped) {
-        tell_spindle();
+    const bool coolant = std::exchange(suspended_, false);
+    const bool spindle = std::exchange(spindle_suspended_, false) || coolant;
+    if (spindle && state_ != SpindleState::stopped) {
+        order_spindle();
     }
-    tell_coolant();
+    if (coolant) {
+        tell_coolant();
+    }
 }
 
 void SpindleOrders::stop_all() noexcept {
     state_ = SpindleState::stopped;
     flood_ = mist_ = suspended_ = spindle_suspended_ = false;
-    tell_spindle();
+    order_spindle();
     tell_coolant();
 }
 

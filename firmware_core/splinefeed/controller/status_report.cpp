@@ -75,6 +75,8 @@ void StatusReport::write(const Content& content, const ControllerSettings& setti
     const MachineReading& reading = *content.reading;
     const PerAxis<Decimal> offset = offset_of(*content.offsets);
     PerAxis<Decimal> position{};
+    const std::int32_t mask = content.sender.report_mask;
+    const bool inches = content.sender.inches;
     const bool of_machine = (mask & 1) != 0;
     for (const unsigned k : indices(settings.program.axes)) {
         position[k] = to_decimal(reading.position[k]) - (of_machine ? Decimal{} : offset[k]);

@@ -7,6 +7,7 @@
 #include "splinefeed/controller/controller_settings.hpp"
 #include "splinefeed/controller/controller_state.hpp"
 #include "splinefeed/controller/overrides.hpp"
+#include "splinefeed/controller/setting_list.hpp"
 #include "splinefeed/controller/spindle_orders.hpp"
 #include "splinefeed/s0_program/work_offsets.hpp"
 
@@ -29,6 +30,7 @@ public:
         const MachineReading* reading = nullptr;
         const WorkOffsets* offsets = nullptr;
         const SpindleOrders* spindle = nullptr;
+        SenderSettings sender{};
         Overrides overrides{};
         int free_moves = 0;
         std::size_t free_bytes = 0;
@@ -39,9 +41,6 @@ public:
     void write(const Content& content, const ControllerSettings& settings, bool all, AnswerText& out) noexcept;
     /// The next reports have both.
     void refresh() noexcept { until_offsets_ = until_overrides_ = 0; }
-
-    std::int32_t mask = 3; ///< $10: bit 0 machine position, else that of the program; bit 1 buffers, bit 2 line
-    bool inches = false;   ///< $13
 
 private:
     static void write_inputs(std::uint32_t inputs, const ControllerSettings& settings, AnswerText& out) noexcept;

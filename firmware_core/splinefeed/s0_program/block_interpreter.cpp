@@ -49,6 +49,10 @@ void BlockInterpreter::start(const PerAxis<Position>& position) noexcept {
 
 void BlockInterpreter::restart() noexcept {
     modal_ = ModalState::at_start(settings_);
+    begin_next();
+}
+
+void BlockInterpreter::begin_next() noexcept {
     cycle_words_ = {};
     drop_block();
     percent_ = any_block_ = ended_ = false;
@@ -194,6 +198,9 @@ BlockStatus BlockInterpreter::end_of_input() noexcept {
 BlockStatus BlockInterpreter::execute() noexcept {
     BlockUse use;
     if (const BlockStatus status = find_use(block_, modal_, letters_, rules(), use); !status.ok()) {
+        return status;
+    }
+    if (const BlockStatus status = outputs_ != nullptr ? check_outputs() : BlockStatus{}; !status.ok()) {
         return status;
     }
     const ModalState modal = modal_;

@@ -6,6 +6,7 @@
 #include "splinefeed/s0_program/canned_cycle.hpp"
 #include "splinefeed/s0_program/cutter_path.hpp"
 #include "splinefeed/s0_program/nurbs_curve.hpp"
+#include "splinefeed/s0_program/output_list.hpp"
 #include "splinefeed/s0_program/program_arc.hpp"
 #include "splinefeed/s0_program/program_step.hpp"
 #include "splinefeed/s0_program/surface_path.hpp"
@@ -31,8 +32,12 @@ public:
     /// Where the machine stands, in machine coordinates. Before the first push(), and after an abort: then the rest of
     /// the block is dropped.
     void start(const PerAxis<Position>& position) noexcept;
-    /// For the next program: modes as at the start, offsets and position as they are.
+    /// Words for outputs that it does not have are refused from now on: output_missing. It must outlive this.
+    void set_outputs(const OutputList& outputs) noexcept { outputs_ = &outputs; }
+    /// For another program: modes as at the start, offsets and position as they are.
     void restart() noexcept;
+    /// For the next program behind has_ended(): modes as the end has left them.
+    void begin_next() noexcept;
     /// The offsets of a state file.
     void restore(const WorkOffsets& offsets) noexcept;
     [[nodiscard]] const WorkOffsets& offsets() const noexcept { return frame_.offsets(); }
@@ -178,6 +183,7 @@ private:
     [[nodiscard]] Pull next_of_block(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] bool event_is_due() noexcept;
     [[nodiscard]] int count_events() noexcept;
+    [[nodiscard]] BlockStatus check_outputs() noexcept;
     void fill_event(ProgramEvent& event) const noexcept;
     [[nodiscard]] bool finish_assignments() noexcept;
     [[nodiscard]] bool end_program() noexcept;
@@ -192,6 +198,7 @@ private:
     AxisLetters letters_;
     BlockReader reader_;
     WordEvaluator* evaluator_;
+    const OutputList* outputs_ = nullptr; // none: the machine has all
     ModalState modal_;
     WorkFrame frame_;
     Place place_{};

@@ -112,6 +112,26 @@ bool BlockInterpreter::event_is_due() noexcept {
     }
 }
 
+BlockStatus BlockInterpreter::check_outputs() noexcept {
+    struct Row {
+        Stage at;
+        CodeGroup group;
+    };
+    constexpr Row rows[] = {{input_output, CodeGroup::input_output}, {coolant, CodeGroup::coolant}};
+    BlockStatus status;
+    for (const Row& row : rows) {
+        ProgramEvent event;
+        stage_ = row.at;
+        fill_event(event);
+        const bool asks = event.kind == EventKind::input_wait || event.kind == EventKind::coolant_off;
+        if (block_.has(row.group) && !asks && !outputs_->has_output(event.kind, event.number)) {
+            status = block_.at(ProgramError::output_missing, row.group);
+        }
+    }
+    stage_ = all_done;
+    return status;
+}
+
 // Of the block, at most.
 int BlockInterpreter::count_events() noexcept {
     int count = 1; // assignments may change offsets

@@ -31,11 +31,12 @@ ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
 void ModalState::end_program(const ProgramSettings& settings) noexcept {
     plane = Plane::xy;
     incremental = false;
+    const bool keeps_feed = !inverse_time && !per_turn; // as apply()
+    feed = keeps_feed ? feed : rules_of(settings.dialect).first_feed;
+    feed_in_inches = feed_in_inches && keeps_feed;
     inverse_time = per_turn = false;
     needs_straight = false;
     cutter = {};
-    feed = rules_of(settings.dialect).first_feed;
-    feed_in_inches = false;
     motion = rules_of(settings.dialect).last_motion;
     spindle = SpindleState::stopped;
 }

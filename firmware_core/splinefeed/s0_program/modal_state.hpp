@@ -42,7 +42,7 @@ struct ModalState {
 
     /// Before the first block.
     [[nodiscard]] static ModalState at_start(const ProgramSettings& settings) noexcept;
-    /// What M2 and M30 leave.
+    /// What M2 and M30 leave: G1, G17, G40, G90, G94 and M5. Units, F, S and T stay.
     void end_program(const ProgramSettings& settings) noexcept;
     /// A length or a feed of the program in mm.
     [[nodiscard]] Decimal in_mm(Decimal value) const noexcept {

@@ -164,6 +164,8 @@ constexpr Sentence<ProgramError> program_sentences[] = {
      "between two moves of a contour with cutter compensation there may be 7 other moves, dwells and events"},
     {ProgramError::jog_word_unsuited,
      "a jog has axis words and F, and of G words G20, G21, G53, G90 and G91; send the rest as a line of its own"},
+    {ProgramError::output_missing,
+     "the machine has no output for this word: name its line in the machine file, or take the word out"},
     {ProgramError::block_pending, "the items of the block before have not been taken"},
 };
 

@@ -131,6 +131,7 @@ enum class ProgramError : std::uint8_t {
     cutter_exit,
     cutter_far,
     jog_word_unsuited,
+    output_missing,
     block_pending,
 };
 

@@ -15,8 +15,8 @@ namespace {
 std::optional<std::string> missing_for(const ProgramEvent& event, const GcodeSettings& settings) {
     static const ProgramLines none;
     const ProgramLines& lines = settings.lines != nullptr ? *settings.lines : none;
-    const auto unless = [](bool is_there, std::string_view text) {
-        return std::string(is_there ? std::string_view() : text);
+    const auto unless = [&](std::string_view text) {
+        return std::string(lines.has(event.kind, event.number) ? std::string_view() : text);
     };
     switch (event.kind) {
     case EventKind::message:
@@ -37,22 +37,20 @@ std::optional<std::string> missing_for(const ProgramEvent& event, const GcodeSet
     case EventKind::spindle_clockwise:
     case EventKind::spindle_counterclockwise:
     case EventKind::spindle_stop:
-        return unless(settings.spindle != nullptr && settings.spindle->is_controlled(),
-                      "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
-                      "enable = { line = ... }, in [spindle]");
-    case EventKind::mist_on: return unless(lines.mist.has_value(), "line for this; name it in [coolant.mist]");
-    case EventKind::flood_on: return unless(lines.flood.has_value(), "line for this; name it in [coolant.flood]");
-    case EventKind::coolant_off:
-        return unless(lines.mist || lines.flood, "coolant; name its line in [coolant.mist] or [coolant.flood]");
+        return settings.spindle != nullptr && settings.spindle->is_controlled()
+                   ? std::string()
+                   : "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
+                     "enable = { line = ... }, in [spindle]";
+    case EventKind::mist_on: return unless("line for this; name it in [coolant.mist]");
+    case EventKind::flood_on: return unless("line for this; name it in [coolant.flood]");
+    case EventKind::coolant_off: return unless("coolant; name its line in [coolant.mist] or [coolant.flood]");
     case EventKind::output_on_with_motion:
     case EventKind::output_off_with_motion:
     case EventKind::output_on:
     case EventKind::output_off:
-        return unless(lines.output(event.number) != nullptr,
-                      fmt::format("output {0}; name its line in [[output]] with number = {0}", event.number));
+        return unless(fmt::format("output {0}; name its line in [[output]] with number = {0}", event.number));
     case EventKind::input_wait:
-        return unless(lines.input(event.number) != nullptr,
-                      fmt::format("input {0}; name its line in [[input]] with number = {0}", event.number));
+        return unless(fmt::format("input {0}; name its line in [[input]] with number = {0}", event.number));
     default: return std::nullopt;
     }
 }
