@@ -5,7 +5,7 @@
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
       [--tool build/tool/bin/splinefeed] [--stops] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
-      [--linuxcnc TREE]
+      [--linuxcnc TREE] [--step]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
@@ -15,7 +15,7 @@ a hundred periods planning gets no time. --judge and --canon measure the distanc
 without motion, too, and what the tool takes with a stop where the machine stood: what is left is lost by the planner. --hal: more lines for
 HAL. --set: a line of the INI file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without
 output 0. --indexer: A is a locking rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not
-while it is locked. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion. --linuxcnc: a source tree
+while it is locked. --step: pauses the program, which has whole millimetres, steps four times, and looks where. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion. --linuxcnc: a source tree
 of LinuxCNC, built to run in place, else what is installed.
 """
 import argparse
@@ -226,6 +226,16 @@ def indexer_problem(samples, axes):
         " another axis moves beside it" if (numpy.delete(moves, a, 1).any(axis=1) & unlocked).any() else "")
 
 
+def step_problem(samples, axes):
+    import numpy
+
+    q = samples[:, : len(axes)]
+    begins = numpy.flatnonzero(numpy.abs(numpy.diff(q, axis=0)).max(axis=1) > 1e-9)
+    stands = q[begins[:-1][numpy.diff(begins) > 100] + 1] # of 100 periods; the first is the pause
+    off = numpy.abs(stands[1:] - numpy.round(stands[1:])).max(axis=1) > 1e-3
+    return ("" if len(stands) == 5 else f" it stood {len(stands)} times") + "".join(f" a step ends at {place}" for place in stands[1:][off])
+
+
 def load(path):
     spec = importlib.util.spec_from_file_location(pathlib.Path(path).stem, path)
     module = importlib.util.module_from_spec(spec)
@@ -325,6 +335,7 @@ def main():
         parser.add_argument("--" + name, type=kind, default=default)
     parser.add_argument("--stops", action="store_true")
     parser.add_argument("--indexer", action="store_true")
+    parser.add_argument("--step", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parsed(parser, 300)
     if options is None:
@@ -343,6 +354,8 @@ def main():
             parameters = options.parameters + (f" jerk={options.jerk}" if options.jerk else "") + f" starve={options.starve}"
             steers = options.steer is not None
             actions = load(HERE / "linuxcnc_actions.py").random_actions(options.steer + seed, tool_s or 8.0) if steers else []
+            if options.step:
+                actions = [[t, "step" if t > 0.5 else "hold", 0] for t in (0.5, 1.5, 3.0, 4.5, 6.0)] + [[7.5, "resume", 0]]
             sent = begun_with("M52 P1", text) if steers else text
             result = run(sent, axes, options, options.module.resolve() if ours else None, parameters, actions)
             row = [program.name, planner]
@@ -375,6 +388,8 @@ def main():
                     problem += " a period without motion"
                 if options.indexer:
                     problem += indexer_problem(result["samples"], axes)
+                if options.step:
+                    problem += step_problem(result["samples"], axes)
                 if options.refused:
                     went_on = used[0] > 0.0 or result["samples"][:, len(axes) + OTHERS.index("digital-out-00")].any()
                     problem = f"it went on: {problem}" if went_on else "" if options.refused in problem else f"it says: {problem}"

@@ -318,7 +318,7 @@ static void show_move(TP_STRUCT *tp) {
     const struct told *q = &told[out.first % tpc_capacity];
     tp->depth = (int)(out.last - out.first);
     tp->activeDepth = (int)(out.pushed - out.first);
-    tp->execId = q->id;
+    if (!out.in_step || tp->execId == 0) tp->execId = q->id; /* where it changes, motmod ends a single step */
     tp->execTag = q->tag;
     tp->motionType = q->canon;
     status->enables_queued = q->enables;
@@ -349,11 +349,9 @@ static void run(TP_STRUCT *tp) {
         tpc_begin(&machine);
     }
     const unsigned before = out.first;
-    struct tpc_input in;
+    struct tpc_input in = {.hold = tp->pausing, .abort = tp->aborting, .steps = status->stepping};
     in.max_feed = tp->vLimit > 0.0 ? tp->vLimit : 0.0;
-    in.hold = tp->pausing;
     override(&in);
-    in.abort = tp->aborting;
     in.may_begin = may_begin(tp);
     const int synced = told[out.first % tpc_capacity].synced;
     if (synced) tp_tell_spindle(&status->spindle_status[synced - 1]);

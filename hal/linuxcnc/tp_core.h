@@ -44,6 +44,7 @@ struct tpc_input {
     double rapids;   /* of the largest speed of rapids, 1/128 to 1 */
     double max_feed; /* 0 stops; a large number: none */
     int hold, abort, may_begin;
+    int steps; /* single step: each move stands at its end, whatever its mode, also where it was planned to go on */
 };
 
 struct tpc_output {
@@ -52,6 +53,7 @@ struct tpc_output {
     double speed;           /* of X Y Z, of the others where those stand */
     unsigned first, pushed, last; /* sequence numbers: the move under way, the next one that is planned, one behind the
                                      newest. Nothing is queued where first == last, and then the machine stands. */
+    int in_step; /* single step, and the machine does not stand at the end of a move */
     int waits;                    /* the machine stands before move `pushed`, until may_begin */
     int complete;                 /* it has come to the end of the newest move, and stands; for one period */
     int reverses; /* for one period: 1: the spindle is to turn back, at the end of a tap; 2: as before, at its start */

@@ -16,6 +16,7 @@ namespace {
 constexpr double mm_per_unit_of_segment = 1.0 / (1024.0 * static_cast<double>(units_per_count));
 constexpr unsigned most_left = 64; // moves that are over, in a period
 constexpr double rounding_s = 1e-12;
+constexpr double half_turn_rad = 3.141592653589793;
 constexpr double turns_back = 1e-6; // 1 + the cosine of the angle to the next move
 
 double seconds(const FeedSegment& segment) noexcept {
@@ -79,8 +80,13 @@ void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
         ++first_;
     }
     for (unsigned i = 0; i<most_left&& static_cast<int>(n + 1U - first_)> 0 && pushed_ - first_ > 1U; ++i) {
+        turn(at);
         const QueuedMove& here = move(first_);
         const QueuedMove& next = move(first_ + 1U);
+        if (here.element.shape == MoveShape::arc && turns_left_rad_ > half_turn_rad) {
+            neared_ = first_ - 1U; // each turn passes that plane
+            break;
+        }
         double along = 0.0;
         double past = 0.0;
         double straight = 1.0; // 0: back where it came from, so no plane halves the angle
@@ -99,6 +105,7 @@ void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
         }
         ++first_;
     }
+    turn(at);
 }
 
 void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
@@ -125,6 +132,7 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     const Mm before = at_;
     output.complete = 0;
     output.reverses = 0;
+    output.in_step = 0;
     ++idle_;
     if (syncs_) {
         run_synced(input, output);
@@ -142,6 +150,8 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         }
         if (aborted || complete) {
             forget();
+        } else if (!sent_abort_) {
+            output.in_step = step(input.steps != 0) ? 1 : 0;
         }
     } else if (input.abort != 0 || failed_) {
         forget();

@@ -85,11 +85,17 @@ Mm TpMotion::mm_of(const double* position) const noexcept {
     return out;
 }
 
-void TpMotion::forget() noexcept {
-    first_ = pushed_ = last_;
+// At standstill; what is queued stays.
+void TpMotion::leave_path() noexcept {
     ring_head_ = ring_count_ = 0;
-    planning_ = syncs_ = waits_ = has_now_ = unfinished_ = failed_ = false;
+    planning_ = waits_ = has_now_ = unfinished_ = refills_ = false;
     in_now_s_ = 0.0;
+}
+
+void TpMotion::forget() noexcept {
+    leave_path();
+    first_ = pushed_ = last_;
+    syncs_ = failed_ = leads_ = false;
     end_ = at_;
 }
 
@@ -107,6 +113,29 @@ void TpMotion::set(const double* position) noexcept {
     at_ = end_ = mm_of(position);
 }
 
+// The length of a move from there, and its directions. 0; or -1: it has no length; or the core's error.
+int TpMotion::measure(const Mm& from, QueuedMove& out) noexcept {
+    double length_sq = 0.0;
+    PerAxis<Position> start{};
+    for (const unsigned k : indices(machine_.axes)) {
+        start[k] = position_from_mm(from[k]);
+        const double way = out.to[k] - from[k];
+        length_sq += way * way;
+    }
+    for (const unsigned k : indices(machine_.axes)) {
+        out.in[k] = out.out[k] = length_sq > 0.0 ? (out.to[k] - from[k]) / std::sqrt(length_sq) : 0.0;
+    }
+    if (out.element.shape == MoveShape::arc) {
+        set_directions(out.element, from, out);
+    }
+    const Result<double> way = BlendedPath<double>::length_of(start, out.element, machine_.axes);
+    if (!way.has_value()) {
+        return static_cast<int>(way.error());
+    }
+    out.length_mm = *way / chord_units_per_mm;
+    return *way > 0.0 ? 0 : -1;
+}
+
 int TpMotion::add(const tpc_move& from) noexcept {
     QueuedMove& out = move(last_);
     out = {};
@@ -117,44 +146,23 @@ int TpMotion::add(const tpc_move& from) noexcept {
     element.tolerance_mm = from.tolerance * machine_.mm_per_unit;
     element.chain_tolerance_mm = element.tolerance_mm * rules_.chain_quarters / 4.0;
     out.to = mm_of(from.to);
-    bool linear = false;
-    double length_sq = 0.0;
+    bool linear = from.arc != 0;
     for (const unsigned k : indices(machine_.axes)) {
         if (!position_representable(out.to[k]) || !position_representable(end_[k])) {
             return static_cast<int>(Error::position_out_of_range);
         }
         element.to[k] = position_from_mm(out.to[k]);
-        const double way = out.to[k] - end_[k];
-        linear = linear || ((machine_.axis[k] < 3 || machine_.axis[k] > 5) && way != 0.0);
-        length_sq += way * way;
-        out.in[k] = out.out[k] = way;
+        linear = linear || ((machine_.axis[k] < 3 || machine_.axis[k] > 5) && out.to[k] != end_[k]);
     }
-    const double length = std::sqrt(length_sq);
-    for (const unsigned k : indices(machine_.axes)) {
-        out.in[k] = out.out[k] = length > 0.0 ? out.in[k] / length : 0.0;
+    for (unsigned k = 0; from.arc != 0 && k < 3; ++k) {
+        element.arc.centre[k] = position_from_mm(from.centre[k] * machine_.mm_per_unit);
+        element.arc.normal[k] = from.normal[k];
     }
-    if (from.arc != 0) {
-        for (unsigned k = 0; k < 3; ++k) {
-            element.arc.centre[k] = position_from_mm(from.centre[k] * machine_.mm_per_unit);
-            element.arc.normal[k] = from.normal[k];
-        }
-        element.arc.sweep_rad = from.sweep_rad;
-        set_directions(element, end_, out);
-        linear = true;
-    }
+    element.arc.sweep_rad = from.sweep_rad;
     element.feed_mm_s = from.rapid != 0 ? rapid_feed<double> : from.feed * (linear ? machine_.mm_per_unit : 1.0);
-    PerAxis<Position> start{};
-    for (const unsigned k : indices(machine_.axes)) {
-        start[k] = position_from_mm(end_[k]);
+    if (const int error = measure(end_, out); error != 0) {
+        return error;
     }
-    const Result<double> way = BlendedPath<double>::length_of(start, element, machine_.axes);
-    if (!way.has_value()) {
-        return static_cast<int>(way.error());
-    }
-    if (!(*way > 0.0)) {
-        return -1;
-    }
-    out.length_mm = *way / chord_units_per_mm;
     out.stands_before = from.stands_before != 0;
     out.pitch_mm = from.pitch * machine_.mm_per_unit;
     out.probes = from.probes != 0;
@@ -188,6 +196,7 @@ void TpMotion::begin(const tpc_machine& machine) noexcept {
 
 // What is wrong; nullptr: nothing.
 const char* TpMotion::begin_path() noexcept {
+    leave_path();
     const MachineSettings settings = settings_of(machine_);
     const auto made = MotionLimits<double>::make(settings);
     if (!made.has_value()) {
@@ -210,9 +219,14 @@ const char* TpMotion::begin_path() noexcept {
     }
     trajectory_ = *trajectory;
     base_ = floor_ = pushed_;
+    if (leads_) {
+        if (const Status led = lead(path); !led.ok()) {
+            return describe(led.error());
+        }
+    }
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_abort_ = waits_ = has_now_ = unfinished_ = closed_ = false;
+    sent_abort_ = closed_ = false;
     ratio_ = rapids_ = PacedValue(1.0);
     most_ = PacedValue(no_limit_mm_s);
     return nullptr;
@@ -226,7 +240,11 @@ void TpMotion::steer(const tpc_input& input) noexcept {
         sent_abort_ = true;
     }
     const double pace_s = limits_.jerk_limited ? with_jerk_s : between_changes_s;
-    const bool stops = input.hold != 0 || !(input.max_feed > 0.0);
+    if (pushed_ == first_ && !has_now_) { // nothing is planned
+        stepped_ = input.steps != 0;
+    }
+    const bool parts = input.steps != 0 && !stepped_; // to take it apart, it stands
+    const bool stops = input.hold != 0 || !(input.max_feed > 0.0) || parts;
     if (ratio_.take(stops ? 0.0 : input.ratio, machine_.period_s, pace_s)) {
         trajectory_.override_feed(ratio_.value());
     }
@@ -254,30 +272,28 @@ bool TpMotion::at_known_end() noexcept {
 // Gives the path one more move; false: none may go now. The newest one stays here until it is released, because the one
 // behind it may need the machine to stand at its end.
 bool TpMotion::push_one(bool release) noexcept {
-    if (pushed_ == last_ || !path_->has_room()) {
+    if (pushed_ == last_ || !path_->has_room() || (stepped_ && pushed_ != first_)) {
         return false;
     }
-    QueuedMove& next = move(pushed_);
+    const QueuedMove& next = move(pushed_);
+    PathElement<double> element = next.element;
     if (next.stands_before) {
         waits_ = at_known_end();
         if (!waits_ || !may_begin_ || next.pitch_mm > 0.0) {
             return false;
         }
     }
-    if (pushed_ + 1U == last_) {
-        if (!release) {
-            return false;
-        }
-        next.element.stop_at_end = true;
-    } else if (move(pushed_ + 1U).stands_before) {
-        next.element.stop_at_end = true;
+    const bool newest = pushed_ + 1U == last_;
+    if (newest && !release && !stepped_) {
+        return false;
     }
-    if (const Status pushed = path_->push(next.element); !pushed.ok()) {
+    element.stop_at_end = element.stop_at_end || newest || stepped_ || move(pushed_ + 1U).stands_before;
+    if (const Status pushed = path_->push(element); !pushed.ok()) {
         fail(describe(pushed.error())); // never: add() has asked
         return false;
     }
     waits_ = false;
-    closed_ = next.element.stop_at_end;
+    closed_ = element.stop_at_end;
     ++pushed_;
     return true;
 }

@@ -67,6 +67,8 @@ private:
         return machine_.axis[k] < 3 || machine_.axis[k] > 5 ? machine_.mm_per_unit : 1.0;
     }
     [[nodiscard]] Mm mm_of(const double* position) const noexcept;
+    [[nodiscard]] int measure(const Mm& from, QueuedMove& out) noexcept;
+    void leave_path() noexcept;
     void forget() noexcept;
     void fail(const char* reason) noexcept;
     void steer(const tpc_input& input) noexcept;
@@ -89,6 +91,11 @@ private:
     void tap(tpc_output& output) noexcept;
     [[nodiscard]] Mm place() const noexcept;
     void come_to(unsigned n, const Mm& at) noexcept;
+    [[nodiscard]] double turned_to_end(const Mm& at) noexcept;
+    void turn(const Mm& at) noexcept;
+    void take_apart() noexcept;
+    [[nodiscard]] Status lead(TolerancePath<double>& path) noexcept;
+    [[nodiscard]] bool step(bool steps) noexcept;
     void tell(const Mm& before, tpc_output& output) noexcept;
 
     tpc_settings settings_{};
@@ -112,14 +119,17 @@ private:
 
     // Sequence numbers of moves count up and wrap around.
     std::array<QueuedMove, tpc_capacity> queue_;
-    unsigned first_ = 0;  // under way
-    unsigned pushed_ = 0; // the next one for the path
-    unsigned last_ = 0;   // one behind the newest
-    unsigned base_ = 0;   // move 0 of the path
-    unsigned floor_ = 0;  // everything before it is over
-    unsigned piece_ = 0;  // the move at the end of the piece of path that the machine is on
-    unsigned neared_ = 0; // the move whose end was seen ahead
-    unsigned idle_ = 0;   // periods since the last new move
+    unsigned first_ = 0;     // under way
+    unsigned pushed_ = 0;    // the next one for the path
+    unsigned last_ = 0;      // one behind the newest
+    unsigned base_ = 0;      // move 0 of the path
+    unsigned floor_ = 0;     // everything before it is over
+    unsigned piece_ = 0;     // the move at the end of the piece of path that the machine is on
+    unsigned neared_ = 0;    // the move whose end was seen ahead
+    unsigned idle_ = 0;      // periods since the last new move
+    unsigned turning_ = ~0U; // the arc that `turns_left_rad_` is of
+    double turns_left_rad_ = 0.0;
+    Mm lead_to_{};
 
     std::array<FeedSegment, ring_size> ring_;
     unsigned ring_head_ = 0;
@@ -137,6 +147,8 @@ private:
     bool sent_abort_ = false;
     bool failed_ = false;   // what is queued is not travelled
     bool planning_ = false; // a path is begun
+    bool stepped_ = false;  // it is one move, because of single step
+    bool leads_ = false;    // it begins with a line to `lead_to_`
     enum class Tap { in, back, stops, returns } tap_ = Tap::in;
     bool syncs_ = false; // or a move that follows the spindle
     bool waits_ = false; // at standstill before move pushed_

@@ -37,7 +37,7 @@ class Target:
             if not shutil.which(program):
                 raise Missing(f"{program} is not installed")
         folder = ROOT / "build/bits" / name
-        say(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DSPLINEFEED_BITS=ON", *self.options])
+        say(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DSPLINEFEED_BITS=ON", "-DSPLINEFEED_WERROR=ON", *self.options])
         say(["cmake", "--build", folder, "--target", "equal_bits"])
         built = folder / "bin/equal_bits"
         return run_program([*self.emulator, built if built.exists() else built.with_suffix(".elf")])

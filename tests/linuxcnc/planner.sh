@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # LinuxCNC with splinefeed_tp.so, headless and simulated: limits, ends and steering, at 1 ms and 0.25 ms, with and without a jerk limit, with planning starved in
-# a tenth of the periods. Threads and taps that follow a spindle.
+# a tenth of the periods. Single step. Threads and taps that follow a spindle.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 need linuxcnc unshare setpriv /usr/bin/python3
@@ -10,7 +10,8 @@ if ! unshare --user --map-root-user --mount --ipc --net --pid --fork true 2>/dev
 if ! /usr/bin/python3 -c 'import numpy' 2>/dev/null; then skip "there is no numpy (Debian: apt-get install python3-numpy)"; fi
 
 build=build/linuxcnc
-cmake -G Ninja -B "$build" -DSPLINEFEED_LINUXCNC=ON -DSPLINEFEED_HOST=OFF -DSPLINEFEED_TESTS=OFF -DSPLINEFEED_UNITY_BUILD=OFF >"$build.log"
+cmake -G Ninja -B "$build" -DSPLINEFEED_LINUXCNC=ON -DSPLINEFEED_HOST=OFF -DSPLINEFEED_TESTS=OFF -DSPLINEFEED_UNITY_BUILD=OFF \
+    -DSPLINEFEED_WERROR=ON >"$build.log"
 cmake --build "$build" --target splinefeed_tp >>"$build.log" || { tail -20 "$build.log"; exit 1; }
 bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --check "$@"; }
 bench --planner stock,module
@@ -22,5 +23,6 @@ bench --planner module --period 250
 /usr/bin/python3 bench/linuxcnc_spindle.py --planner module --check 20 --jerk 30000 --steer 4
 for jerk in 0 30000; do
     /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/indexer.ngc --check --planner module --indexer --jerk "$jerk"
+    /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/steps.ngc --check --planner module --step --jerk "$jerk"
     bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10
 done

@@ -24,9 +24,9 @@ public:
     [[nodiscard]] constexpr char letter(int axis) const noexcept { return letters_[static_cast<unsigned>(axis)]; }
     /// -1: the machine does not have it. @param letter  in lower case
     [[nodiscard]] constexpr int index(char letter) const noexcept {
-        for (int k = 0; k < count_; ++k) {
-            if (letters_[static_cast<unsigned>(k)] == letter) {
-                return k;
+        for (const unsigned k : indices(max_axes)) {
+            if (letters_[k] == letter) {
+                return static_cast<int>(k) < count_ ? static_cast<int>(k) : -1;
             }
         }
         return -1;

@@ -10,7 +10,7 @@ namespace splinefeed::hal::gpio {
 namespace {
 
 std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
+    return std::string("'").append(name).append("'");
 }
 
 // "did you mean 'A' (line 4) or 'B' (line 6)?", at most three.
