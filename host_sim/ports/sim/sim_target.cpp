@@ -6,6 +6,7 @@
 
 #include "splinefeed/base/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace splinefeed::host {
@@ -29,17 +30,33 @@ hal::PortFailure SimTarget::prepare(const FeedSegment& first) {
 
 hal::PortFailure SimTarget::renew(const FeedSegment& first) {
     checks_.emplace(*machine_, 1);
-    take_place(first.start);
+    mm_ = mm_of(first.start);
     phase_ = hal::PortPhase::running;
     completed_ = false;
     return {};
 }
 
-void SimTarget::take_place(const PerAxis<std::int64_t>& units) noexcept {
+PerAxis<double> SimTarget::mm_of(const PerAxis<std::int64_t>& units) const noexcept {
+    PerAxis<double> out{};
     for (const unsigned k : indices(machine_->settings.axes)) {
-        mm_[k] = static_cast<double>(units[k]) /
+        out[k] = static_cast<double>(units[k]) /
                  (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
     }
+    return out;
+}
+
+// Within the segment under way, evenly.
+PerAxis<double> SimTarget::now_mm() const noexcept {
+    PerAxis<double> out = mm_;
+    if (!queue_.empty() && phase_ == hal::PortPhase::running) {
+        const PerAxis<double> end = mm_of(queue_.front().end);
+        const double passed = static_cast<double>(now_ticks() - time_ticks_);
+        const double part = std::min(1.0, passed / static_cast<double>(queue_.front().duration_ticks));
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            out[k] += part * (end[k] - out[k]);
+        }
+    }
+    return out;
 }
 
 int SimTarget::room() const noexcept {
@@ -53,12 +70,12 @@ bool SimTarget::submit(const FeedSegment& segment) noexcept {
 }
 
 hal::PortState SimTarget::poll() noexcept {
-    const std::uint64_t now_ticks = clock_->now_us() * static_cast<std::uint64_t>(ticks_per_us);
+    const std::uint64_t now = now_ticks();
     if (queue_.empty()) {
-        time_ticks_ = now_ticks;
+        time_ticks_ = now;
     }
     while (!queue_.empty() && phase_ == hal::PortPhase::running &&
-           time_ticks_ + queue_.front().duration_ticks <= now_ticks) {
+           time_ticks_ + queue_.front().duration_ticks <= now) {
         const FeedSegment segment = queue_.front();
         queue_.pop_front();
         queued_ticks_ -= segment.duration_ticks;
@@ -66,7 +83,7 @@ hal::PortState SimTarget::poll() noexcept {
         if (!checks_->submit(segment) || checks_->poll().phase == hal::PortPhase::fault) {
             stop(hal::PortPhase::fault);
         } else {
-            take_place(segment.end);
+            mm_ = mm_of(segment.end);
             ++executed_;
         }
     }
@@ -75,6 +92,7 @@ hal::PortState SimTarget::poll() noexcept {
 }
 
 void SimTarget::stop(hal::PortPhase phase) noexcept {
+    mm_ = now_mm();
     queue_.clear();
     queued_ticks_ = 0;
     phase_ = phase;
@@ -90,8 +108,9 @@ std::string SimTarget::halted(bool quick) const {
 
 std::vector<RunTarget::AxisPlace> SimTarget::places() const {
     std::vector<AxisPlace> out;
+    const PerAxis<double> mm = now_mm();
     for (const unsigned k : indices(checks_ ? machine_->settings.axes : 0)) { // else nothing has moved
-        out.push_back({k, mm_[k]});
+        out.push_back({k, mm[k]});
     }
     return out;
 }

@@ -51,7 +51,11 @@ private:
     void halt() noexcept override { stop(hal::PortPhase::halted); }
     [[nodiscard]] hal::PortFailure failure() const override;
 
-    void take_place(const PerAxis<std::int64_t>& units) noexcept;
+    [[nodiscard]] PerAxis<double> mm_of(const PerAxis<std::int64_t>& units) const noexcept;
+    [[nodiscard]] PerAxis<double> now_mm() const noexcept;
+    [[nodiscard]] std::uint64_t now_ticks() const noexcept {
+        return clock_->now_us() * static_cast<std::uint64_t>(ticks_per_us);
+    }
     void stop(hal::PortPhase phase) noexcept;
 
     const MachineDescription* machine_;
