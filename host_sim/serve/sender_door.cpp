@@ -226,7 +226,8 @@ private:
         sender->heard = SteadyClock::now();
         std::string through;
         if (!sender->refused && !sender->guard.take({bytes.data(), size}, through)) {
-            events_.noted(fmt::format("{} speaks HTTP or TLS: nothing of it was executed", sender->name));
+            events_.noted(fmt::format("{} is no sender (HTTP, TLS, STUN, or no text): nothing of it was executed",
+                                      sender->name));
             drop(sender);
             return;
         }

@@ -10,10 +10,14 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr char tls_greeting = '\x16';
-
 bool acts(char c) {
-    return realtime_byte(static_cast<std::uint8_t>(c)).kind != RealtimeKind::none;
+    const RealtimeKind kind = realtime_byte(static_cast<std::uint8_t>(c)).kind;
+    return kind != RealtimeKind::none && kind != RealtimeKind::nothing;
+}
+
+// TLS begins with 0x16, STUN by TCP with its length, below 0x0200; a terminal over a network with 0xff.
+bool is_text(char c) {
+    return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n';
 }
 
 } // namespace
@@ -32,7 +36,7 @@ bool SenderGuard::take(std::string_view bytes, std::string& out) {
             out += c;
             continue;
         }
-        if (c == tls_greeting || first_.size() == longest_line) {
+        if (!(is_text(c) || acts(c)) || first_.size() == longest_line) {
             return false;
         }
         const bool ends = c == '\n' || c == '\r';

@@ -7,9 +7,9 @@
 
 namespace splinefeed::host {
 
-/// Any page of the web can make a browser send bytes to a port of its own computer: behind an HTTP request, or a TLS
-/// greeting. Those begin with a letter, or with 0x16; a sender's first byte may act at once, and its first line is a
-/// line. Nothing acts before the end of that.
+/// Any page of the web can make a browser send bytes to a port of its own computer: behind an HTTP request, a greeting
+/// of TLS, or the length of a STUN message. A sender's first byte may act at once, and its first line is text. So
+/// nothing acts before the end of that, and a byte that no line has ends the connection.
 class SenderGuard {
 public:
     static constexpr std::size_t longest_line = 4096;
