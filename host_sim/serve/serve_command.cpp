@@ -68,6 +68,10 @@ int run_serve(const ServeArguments& arguments) {
     const MachineChoice choice{arguments.machine, arguments.settings};
     RunMachine machine(choice, *input_format("gcode"));
     tell_note(note_of(choice, machine.machine));
+    std::optional<StateFile> state_file;
+    if (arguments.state) {
+        state_file.emplace(*arguments.state, machine.owner(arguments.target));
+    }
     const MachineState begins = machine.state(arguments.state.value_or(""), "");
     const ServedTarget::Settings told = places_of(begins, machine.machine);
     std::unique_ptr<ServedMachine> tool;
@@ -87,10 +91,9 @@ int run_serve(const ServeArguments& arguments) {
                                    begins.unknown_why.empty());
     }
     std::optional<StateKeeper> state;
-    if (arguments.state) {
-        state.emplace(*arguments.state, machine.axes, begins);
+    if (state_file) {
+        state.emplace(*state_file, begins, StateKeeper::Writes::behind);
     }
-    signals.supervise(); // before anybody can connect
     Server server(settings, motion, *tool, state ? &*state : nullptr, begins, console);
     std::string places;
     if (arguments.tcp) {
@@ -104,11 +107,17 @@ int run_serve(const ServeArguments& arguments) {
         places += "type help for what can be typed here\n";
         server.door().watch_input([&server](std::string_view line) { server.type(line); });
     }
-    print_whole(places, "the address");
+    print_whole(places, "the address"); // nobody is heard before, and a signal ends what waits for a reader
+    signals.supervise();
     server.run(signals);
     const std::string unconfirmed = tool->finish();
     if (!unconfirmed.empty()) {
         tell("splinefeed: {}\n", printable(unconfirmed));
+    }
+    if (state) {
+        signals.at_once([] { abandon("interrupted while the state file was written: it may know no place", 1); });
+        state->finish();
+        signals.supervise();
     }
     return unconfirmed.empty() ? 0 : 1;
 }

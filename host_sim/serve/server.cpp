@@ -102,9 +102,9 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 
 Server::Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
                const MachineState& begins, bool says)
-    : motion_(&motion.motion()), tool_(&tool), state_(state), lines_(line_memory), answers_(answer_memory),
-      text_(answer_memory), controller_(settings, *motion_, tool, {lines_, answers_}), says_(says),
-      places_(tool.places()) {
+    : motion_(&motion.motion()), tool_(&tool), state_(state), gate_(tool, state), lines_(line_memory),
+      answers_(answer_memory), text_(answer_memory), controller_(settings, *motion_, gate_, {lines_, answers_}),
+      says_(says), places_(tool.places()) {
     motion_->interpreter().restore(begins.offsets);
     door_ = make_sender_door({
         .opened =
@@ -153,29 +153,22 @@ void Server::obey(SignalWatch& signals) {
     }
 }
 
+bool Server::is_at_rest() const {
+    return gate_.stands() && motion_->at_rest() && controller_.state() != ControllerState::home;
+}
+
 void Server::step() {
     tool_->advance(Clock::now());
+    gate_.advance();
     controller_.execute(now_ms());
-    if (controller_.state() == ControllerState::home) {
-        moves();
-    }
     FeedSegment segment;
     bool more = true;
-    while (tool_->has_room() && (more = controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item)) {
-        moves();
-        tool_->submit(segment);
+    while (gate_.has_room() && (more = controller_.next(segment, tool_->is_dry(), now_ms()) == Pull::item)) {
+        gate_.submit(segment);
     }
     if (!more && motion_->at_rest() && (motion_->exhausted() || tool_->is_dry())) {
         tool_->rest();
     }
-}
-
-// Until it stands the state file knows no place.
-void Server::moves() {
-    if (!moved_ && state_ != nullptr) {
-        state_->moves();
-    }
-    moved_ = true;
 }
 
 void Server::answer() {
@@ -195,21 +188,22 @@ void Server::keep() {
     if (tool_->take_offsets_change()) {
         state_->offsets(motion_->interpreter().offsets());
     }
-    if (!tool_->stands() || !motion_->exhausted()) {
+    if (!is_at_rest() || !motion_->exhausted()) {
         return;
     }
     std::vector<RunTarget::AxisPlace> places = tool_->places(); // homing, an e-stop and sleep change them, too
-    if (moved_ || places != places_) {
+    if (gate_.has_moved() || places != places_) {
         state_->ends(places);
         places_ = std::move(places);
-        moved_ = false;
+        gate_.rested();
     }
 }
 
 void Server::run(SignalWatch& signals) {
-    for (bool reset = false; !leaves_ || !tool_->stands() || !motion_->at_rest();) {
+    for (bool reset = false; !leaves_ || !gate_.stands() || !motion_->at_rest();) {
         door_->wait(period);
         obey(signals);
+        leaves_ = leaves_ || (state_ != nullptr && state_->has_failed());
         if (leaves_ && !reset && requests_ == 0) {
             controller_.act(reset_byte);
         }
@@ -221,8 +215,7 @@ void Server::run(SignalWatch& signals) {
         answer();
         keep();
     }
-    moved_ = moved_ && state_ != nullptr;
-    if (moved_) {
+    if (gate_.has_moved() && state_ != nullptr) {
         state_->ends(tool_->places());
     }
 }

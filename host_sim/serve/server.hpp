@@ -3,18 +3,19 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
-#include "host_sim/run/state_keeper.hpp"
+#include "host_sim/serve/motion_gate.hpp"
 #include "host_sim/serve/sender_door.hpp"
-#include "host_sim/serve/served_machine.hpp"
 #include "host_sim/serve/served_motion.hpp"
 
 #include "splinefeed/controller/controller.hpp"
 
 namespace splinefeed::host {
 
+/// Its thread obeys: it waits for no disk, no reader and no sender.
 class Server {
 public:
-    /// All must outlive it. @param state  null: nothing is kept   @param begins  offsets, and where the machine stands
+    /// All must outlive it. @param state  writes behind; null: nothing is kept   @param begins  offsets, and where the
+    /// machine stands
     /// @param says  tells the operator's terminal what happens
     Server(const ControllerSettings& settings, ServedMotion& motion, ServedMachine& tool, StateKeeper* state,
            const MachineState& begins, bool says);
@@ -24,22 +25,24 @@ public:
     [[nodiscard]] SenderDoor& door() noexcept { return *door_; }
     /// A line that was typed at the server's terminal.
     void type(std::string_view line);
-    /// Serves until `signals` ask for the end, and the machine stands. A second request stops it at once.
+    /// Serves until `signals` ask for the end, or the state cannot be written, and the machine stands. A second request
+    /// stops it at once. What is then kept of the state is still to be written.
     void run(SignalWatch& signals);
 
 private:
     using Clock = std::chrono::steady_clock;
 
     [[nodiscard]] std::uint32_t now_ms() const;
+    [[nodiscard]] bool is_at_rest() const;
     void obey(SignalWatch& signals);
     void step();
-    void moves();
     void answer();
     void keep();
 
     LineMotion* motion_;
     ServedMachine* tool_;
     StateKeeper* state_;
+    MotionGate gate_; // to `tool_`
     std::vector<char> lines_;
     std::vector<char> answers_;
     std::vector<char> text_; // of them, on its way
@@ -49,8 +52,7 @@ private:
     int requests_ = 0; // to end, that were obeyed
     bool says_;
     bool leaves_ = false;
-    bool moved_ = false;                       // since the state was kept,
-    std::vector<RunTarget::AxisPlace> places_; // which has these places
+    std::vector<RunTarget::AxisPlace> places_; // that the state has
 };
 
 } // namespace splinefeed::host
