@@ -144,12 +144,26 @@ void Server::obey(SignalWatch& signals) {
         controller_.act(reset_byte);
         leaves_ = true;
     }
-    switch (signals.take_steering()) {
-    case UserSteering::hold:
-    case UserSteering::held: controller_.act({RealtimeKind::hold}); break;
+    const UserSteering steering = signals.take_steering();
+    if (steering != UserSteering::none) {
+        suspend_.forget();
+    }
+    switch (steering) {
+    case UserSteering::suspend: suspend_.ask(); break;
+    case UserSteering::held: UserSuspend::tell_held(); [[fallthrough]];
+    case UserSteering::hold: controller_.act({RealtimeKind::hold}); break;
     case UserSteering::resume: controller_.act({RealtimeKind::resume}); break;
-    case UserSteering::suspend:
     case UserSteering::none: break;
+    }
+}
+
+// A search for references is not held: the process stops behind it.
+void Server::suspend() {
+    if (leaves_) {
+        suspend_.forget();
+    } else if (suspend_.asked()) {
+        controller_.act({RealtimeKind::hold});
+        suspend_.follow(!is_at_rest(), 0, 0, !gate_.spindle_turns());
     }
 }
 
@@ -214,6 +228,7 @@ void Server::run(SignalWatch& signals) {
         step();
         answer();
         keep();
+        suspend();
     }
     if (gate_.has_moved() && state_ != nullptr) {
         state_->ends(tool_->places());

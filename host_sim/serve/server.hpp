@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
+#include "host_sim/run/user_pause.hpp"
 #include "host_sim/serve/motion_gate.hpp"
 #include "host_sim/serve/sender_door.hpp"
 #include "host_sim/serve/served_motion.hpp"
@@ -35,6 +36,7 @@ private:
     [[nodiscard]] std::uint32_t now_ms() const;
     [[nodiscard]] bool is_at_rest() const;
     void obey(SignalWatch& signals);
+    void suspend();
     void step();
     void answer();
     void keep();
@@ -52,6 +54,7 @@ private:
     int requests_ = 0; // to end, that were obeyed
     bool says_;
     bool leaves_ = false;
+    UserSuspend suspend_;
     std::vector<RunTarget::AxisPlace> places_; // that the state has
 };
 
