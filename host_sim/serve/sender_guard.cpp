@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/serve/sender_guard.hpp"
 
-#include "splinefeed/controller/realtime_byte.hpp"
-
 #include <algorithm>
 #include <cctype>
 
@@ -50,6 +48,27 @@ bool SenderGuard::take(std::string_view bytes, std::string& out) {
         }
     }
     return true;
+}
+
+std::vector<RealtimeByte> StopBytes::take(std::string_view bytes) {
+    std::vector<RealtimeByte> out;
+    for (const char c : bytes) {
+        const auto byte = static_cast<std::uint8_t>(c);
+        if (left_ > 0 && (byte & 0xc0U) == 0x80U) {
+            --left_;
+            continue;
+        }
+        left_ = byte < 0xc3 || byte > 0xf4 ? 0 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
+        switch (const RealtimeByte meaning = realtime_byte(byte); meaning.kind) {
+        case RealtimeKind::hold:
+        case RealtimeKind::reset:
+        case RealtimeKind::stop:
+        case RealtimeKind::door:
+        case RealtimeKind::jog_cancel: out.push_back(meaning); break;
+        default: break;
+        }
+    }
+    return out;
 }
 
 } // namespace splinefeed::host

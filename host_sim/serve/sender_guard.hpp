@@ -2,8 +2,11 @@
 // SenderGuard: lets nothing of a connection through before its first line shows that it is a sender's.
 #pragma once
 
+#include "splinefeed/controller/realtime_byte.hpp"
+
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -20,6 +23,15 @@ public:
 private:
     std::string first_;
     bool passed_ = false;
+};
+
+/// Finds what stops the machine in the bytes of somebody who may do no more. A byte of a character in UTF-8 is text.
+class StopBytes {
+public:
+    [[nodiscard]] std::vector<RealtimeByte> take(std::string_view bytes);
+
+private:
+    int left_ = 0; // bytes of a character
 };
 
 /// Whether a line is of HTTP.

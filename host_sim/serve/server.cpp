@@ -115,8 +115,13 @@ Server::Server(const ControllerSettings& settings, ServedMotion& motion, ServedM
                 controller_.connect();
             },
         .received = [this](std::string_view bytes) { controller_.receive(bytes, now_ms()); },
+        .stopped = [this](RealtimeByte byte) { controller_.act(byte); },
         .closed = [this] { controller_.disconnect(); },
-        .idle = [this] { return controller_.state() == ControllerState::idle; },
+        .rests =
+            [this] {
+                const ControllerState now = controller_.state();
+                return is_at_rest() && now != ControllerState::run && now != ControllerState::jog;
+            },
         .noted = [](const std::string& text) { tell("splinefeed: {}\n", printable(text)); },
     });
 }

@@ -54,3 +54,22 @@ TEST_CASE("A sender's first byte acts at once, and its first line when it ends",
     const std::string longest(SenderGuard::longest_line - 1, 'x');
     CHECK(through(longest + "\n", 1000) == longest + "\n");
 }
+
+TEST_CASE("Who may only stop the machine does nothing else, and a letter stops nothing", "[serve]") {
+    StopBytes stops;
+    const auto kinds = [&](std::string_view bytes) {
+        std::vector<RealtimeKind> out;
+        for (const RealtimeByte byte : stops.take(bytes)) {
+            out.push_back(byte.kind);
+        }
+        return out;
+    };
+    using enum RealtimeKind;
+    CHECK(kinds("G1X9?~\x81\x90\xa0$X\n").empty());
+    CHECK(kinds("!\x18\x19\x82\x84\x85") == std::vector{hold, reset, stop, hold, door, jog_cancel});
+    CHECK(kinds("(\xd1\x84\xd1\x85 \xe2\x82\x84 \xf0\x9f\x84\x85)").empty());
+    CHECK(kinds("\xd1").empty());
+    CHECK(kinds("\x84").empty()); // the rest of it
+    CHECK(kinds("\xd1\x84\x84") == std::vector{door});
+    CHECK(kinds("\xc2\x85") == std::vector{jog_cancel}); // as senders write it that write UTF-8
+}
