@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -185,7 +186,7 @@ def unread(tool, folder):
     sender = running(server, b"G1 X290 F600\n")
     slowest = 0.0
     for k in range(1000):
-        knock(server, STUN)
+        knock(server, b"\x16\x03")
         if k % 50 == 0:
             begun = time.monotonic()
             sender.report()
@@ -200,7 +201,7 @@ def unread(tool, folder):
         read += os.read(ends[0], 4096)
     require(b" messages were dropped here" in read, "nobody is told that messages were dropped")
     for _ in range(100):
-        knock(server, STUN)
+        knock(server, b"\x16\x03")
     server.process.send_signal(signal.SIGINT)
     require(server.process.wait(timeout=5) == 0, "the end")
     sender.close()
@@ -243,7 +244,7 @@ def killed(tool, folder):
     sender = running(server)
     time.sleep(0.2)
     kept = json.loads(pathlib.Path(state).read_text())
-    require(kept["position_mm"] == [None] * 3 and (kept["machine"], kept["target"]) == ("test", "sim"), kept)
+    require(kept["position_mm"] == [None] * 3 and (kept.get("machine"), kept.get("target")) == ("test", "sim"), kept)
     pathlib.Path(folder, "part.nc").write_text("G1 X1 F600\n")
     run = [tool, "run", os.path.join(folder, "part.nc"), "-m", MACHINE, "--state", state, "--quiet"]
     said = subprocess.run(run, capture_output=True, text=True, check=False, timeout=30)
@@ -269,6 +270,27 @@ def killed(tool, folder):
     require(pathlib.Path(state).read_text() == text, "a simulation has written the machine's state")
 
 
+def unwritable(tool, folder):
+    """A state that can no longer be written ends the server: a machine that moves brakes first, and one that stands does not begin."""
+    for moves in (True, False):
+        kept = os.path.join(folder, f"kept{moves}")
+        os.mkdir(kept)
+        server = started(tool, folder, "--state", os.path.join(kept, "state.json"))
+        sender = running(server, b"G1 X20 F6000\nG10 L2 P1 X1\nG1 X290 F1200\n") if moves else greeted(server)
+        shutil.rmtree(kept)
+        if not moves:
+            sender.send(b"G1 X9 F600\n")
+        told = server.process.communicate(timeout=10)[1]
+        require(server.process.returncode == 2 and "state.json: cannot be written: " in told, told)
+        try:
+            while sender.read(1):
+                pass
+        except Failed:
+            pass  # it is closed
+        require((b"Grbl 1.1h" in sender.text) == moves, f"the machine was not reset, or has moved: {sender.text}")
+        sender.close()
+
+
 def dead_link(tool, folder):
     """A link that is taken down: the machine is held, and given away. In a name space of its own."""
     clone_newuser, clone_newnet = 0x10000000, 0x40000000
@@ -292,7 +314,7 @@ def dead_link(tool, folder):
     end(server)
 
 
-CASES = {case.__name__: case for case in (no_sender, drip, anybody, silent, unread, signals, killed, dead_link)}
+CASES = {case.__name__: case for case in (no_sender, drip, anybody, silent, unread, signals, killed, unwritable, dead_link)}
 
 
 def main():
