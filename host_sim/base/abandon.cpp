@@ -27,6 +27,7 @@ void say(std::string_view sentence) {
     std::string line = "splinefeed: " + printable(sentence);
     line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));
     line += '\n';
+    await_told(std::chrono::milliseconds(taken_within_ms));
     erase_drawn_line();
     pollfd errors{STDERR_FILENO, POLLOUT, 0};
     if (poll(&errors, 1, taken_within_ms) == 1 && (errors.revents & POLLOUT) != 0) {

@@ -36,21 +36,6 @@ bool write_all(int descriptor, std::string_view text) {
     return true;
 }
 
-/// The file itself, where the name is that of a symbolic link; it need not be there yet.
-std::string file_of(const std::string& name) {
-    constexpr int most_links = 40; // as the kernel has it
-    std::filesystem::path path = name;
-    std::error_code no_link;
-    for (int i = 0; i < most_links; ++i) {
-        const std::filesystem::path target = std::filesystem::read_symlink(path, no_link);
-        if (no_link) {
-            return path.string();
-        }
-        path = path.parent_path() / target;
-    }
-    fail(name, ELOOP);
-}
-
 /// A new file beside the path. A name that cannot be known before, and O_EXCL: nobody can have put a link or a file of
 /// theirs there.
 struct AsideFile {
@@ -90,6 +75,20 @@ std::timed_mutex replacing;
 
 } // namespace
 
+std::string replaced_file(const std::string& name) {
+    constexpr int most_links = 40; // as the kernel has it
+    std::filesystem::path path = name;
+    std::error_code no_link;
+    for (int i = 0; i < most_links; ++i) {
+        const std::filesystem::path target = std::filesystem::read_symlink(path, no_link);
+        if (no_link) {
+            return path.string();
+        }
+        path = path.parent_path() / target;
+    }
+    fail(name, ELOOP);
+}
+
 void end_replacing() noexcept {
     constexpr std::chrono::seconds most{2}; // a disk that hangs must not keep the process
     static_cast<void>(replacing.try_lock_for(most));
@@ -102,7 +101,7 @@ std::string why_irreplaceable(const std::string& name) {
 
 void remove_replaced(const std::string& name) {
     const std::lock_guard lock(replacing);
-    const std::string path = file_of(name);
+    const std::string path = replaced_file(name);
     struct stat status {};
     if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::unlink(path.c_str()) != 0) {
         fail(path, errno);
@@ -112,7 +111,7 @@ void remove_replaced(const std::string& name) {
 // A symbolic link stays one, and the file keeps its permissions.
 void replace_durably(const std::string& name, std::string_view text) {
     const std::lock_guard lock(replacing);
-    const std::string path = file_of(name);
+    const std::string path = replaced_file(name);
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;
     if (exists && !S_ISREG(old.st_mode)) { // the new name would take its place, also that of /dev/null

@@ -15,6 +15,10 @@ void replace_durably(const std::string& name, std::string_view text);
 /// Why replace_durably() refuses a name whatever the text: a directory, pipe or device has it. Empty: it does not.
 [[nodiscard]] std::string why_irreplaceable(const std::string& name);
 
+/// The file that replace_durably() replaces: where the name is that of a symbolic link, what that names. It need not be
+/// there yet. Throws OutputError where links go in a circle.
+[[nodiscard]] std::string replaced_file(const std::string& name);
+
 /// Removes a file that replace_durably() made where none was; a symbolic link to it stays. Throws OutputError.
 void remove_replaced(const std::string& name);
 

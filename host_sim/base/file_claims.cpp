@@ -142,7 +142,7 @@ void FileClaims::claim_output(const std::string& path, bool state) {
                               "of its own",
                               output, shown(claim.name, "on standard input"));
         }
-        if (path == "-" && claim.name == "-") {
+        if ((path == "-" && claim.name == "-") || (state && claim.state && claim.name == path)) {
             return; // one after another
         }
         throw OutputError("{}: it is the same file as the output {}; give each its own", output,

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/signal_watch.hpp"
 
-#include "host_sim/base/standard_streams.hpp"
-
 #include <algorithm>
 #include <array>
 
@@ -52,6 +50,7 @@ SignalWatch::SignalWatch(std::function<void()> at_once) : at_once_(std::move(at_
     std::ranges::for_each(end_signals, take);
     std::ranges::for_each(steering_signals, take);
     pthread_sigmask(SIG_BLOCK, &taken_, &before_);
+    telling_.emplace();
     thread_ = std::thread([this] { work(); });
 }
 
@@ -59,6 +58,7 @@ SignalWatch::~SignalWatch() {
     ends_.store(true);
     pthread_kill(thread_.native_handle(), wake_up);
     thread_.join();
+    telling_.reset();
     for (const int signal : end_signals) {
         if (sigismember(&taken_, signal) == 1) {
             sigaddset(&before_, signal);
@@ -82,6 +82,7 @@ bool SignalWatch::suspend_now() noexcept {
     if (!may_suspend_.load() || waits(SIGCONT) || std::ranges::any_of(end_signals, waits)) {
         return false;
     }
+    await_told(std::chrono::milliseconds(100));
     return kill(getpid(), SIGSTOP) == 0;
 }
 

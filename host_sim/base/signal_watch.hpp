@@ -2,10 +2,13 @@
 // SignalWatch: the signals of a run, received by a thread of its own.
 #pragma once
 
+#include "host_sim/base/standard_streams.hpp"
+
 #include <atomic>
 #include <csignal>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace splinefeed::host {
@@ -29,6 +32,9 @@ enum class UserSteering {
 ///
 /// Nobody else knows that a request to suspend comes before anybody can obey it: where it was not taken within a
 /// second, the thread says so.
+///
+/// What is told meanwhile is written by a thread of its own (BackgroundTelling): whoever obeys a signal waits for
+/// nobody who reads.
 ///
 /// The kernel keeps one pending signal of each kind: two of a kind count as one if both come before the thread was
 /// woken for the first.
@@ -70,6 +76,7 @@ private:
     std::atomic<bool> ends_{false};
     std::mutex mutex_; // protects the members below
     std::function<void()> at_once_;
+    std::optional<BackgroundTelling> telling_; // its thread has the signals blocked
     std::thread thread_;
 };
 

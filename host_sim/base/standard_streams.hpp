@@ -3,8 +3,11 @@
 // started without.
 #pragma once
 
+#include <chrono>
 #include <fmt/format.h>
+#include <memory>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 namespace splinefeed::host {
@@ -22,6 +25,33 @@ void erase_drawn_line() noexcept;
 /// Writes to standard error, behind a drawn line. What cannot be written is dropped: a full disk must not end a run
 /// that moves a machine.
 void tell(std::string_view text) noexcept;
+
+/// While an object exists, tell() hands its text to a thread and never waits: who stops a machine must not wait until
+/// somebody reads. At most `most_waiting` texts wait; then the oldest is dropped, and a line says how many were.
+/// One object at a time.
+class BackgroundTelling {
+public:
+    static constexpr std::size_t most_waiting = 1000;
+
+    BackgroundTelling();
+    BackgroundTelling(const BackgroundTelling&) = delete;
+    BackgroundTelling& operator=(const BackgroundTelling&) = delete;
+    /// Waits a second at most for what was told. Where nobody has read it, tell() does nothing from then on.
+    ~BackgroundTelling();
+
+private:
+    struct Shared;
+    friend void tell(std::string_view text) noexcept;
+    friend void await_told(std::chrono::milliseconds most) noexcept;
+
+    static void work(const std::shared_ptr<Shared>& shared) noexcept;
+
+    static std::shared_ptr<Shared> present_; // null: there is no object
+    std::thread thread_;
+};
+
+/// Waits until all that was told is written, but no longer than that.
+void await_told(std::chrono::milliseconds most) noexcept;
 
 /// A sentence that the user should know, as a line. Nothing where it is empty.
 void tell_note(std::string_view note);

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t largest_file = 1U << 16U;
 constexpr double largest_mm = 1048576.0;
-constexpr int state_version = 1;
+constexpr int state_version = 2;
 
 Json numbers(const PerAxis<Decimal>& values, std::size_t axes) {
     Json json = Json::array();
@@ -69,6 +69,13 @@ public:
             out[k] = decimal_of(value(found[k], key));
         }
         return out;
+    }
+    [[nodiscard]] std::string text(const char* key) const {
+        const nlohmann::json& found = member(json_, key);
+        if (!found.is_string()) {
+            fail(key);
+        }
+        return found.get<std::string>();
     }
     [[nodiscard]] int whole(const char* key, int low, int high) const {
         const nlohmann::json& found = member(json_, key);
@@ -132,6 +139,20 @@ bool is_there(const std::string& path) {
     return std::filesystem::exists(status);
 }
 
+// By its folder and its name there: the file itself is another one after each write.
+std::string resource_of(const std::string& path) {
+    static_cast<void>(is_there(path));
+    const std::filesystem::path file = replaced_file(path);
+    std::error_code none;
+    const std::filesystem::path folder =
+        std::filesystem::weakly_canonical(file.has_parent_path() ? file.parent_path() : ".", none);
+    return "state:" + (folder / file.filename()).string();
+}
+
+std::string named(const std::string& machine, const std::string& target) {
+    return fmt::format("{} on --target {}", in_quotes(machine), target);
+}
+
 } // namespace
 
 std::optional<MachineState> read_state_file(const std::string& path, const std::vector<std::string>& axes) {
@@ -148,9 +169,32 @@ std::optional<MachineState> read_state_file(const std::string& path, const std::
     return reader.state();
 }
 
-void write_state_file(const std::string& path, const std::vector<std::string>& axes, const MachineState& state) {
+StateFile::StateFile(std::string path, StateOwner owner)
+    : path_(std::move(path)), owner_(std::move(owner)), claim_(resource_of(path_)) {
+    if (!claim_.holder().empty()) {
+        throw InputError(path_, 0, "{} keeps its state there; end that first, or name another file", claim_.holder());
+    }
+    FileClaims::keeps(path_);
+    if (!is_there(path_)) {
+        return;
+    }
+    const nlohmann::json json = parse_json(read_text_file(path_, largest_file), path_);
+    const StateReader reader(json, path_, owner_.axes.size());
+    static_cast<void>(reader.whole("version", state_version, state_version));
+    const std::string machine = reader.text("machine");
+    const std::string target = reader.text("target");
+    if (machine != owner_.machine || target != owner_.target) {
+        throw InputError(path_, 0, "it is the state of {}, not of {}; give each its own file", named(machine, target),
+                         named(owner_.machine, owner_.target));
+    }
+}
+
+void write_state_file(const std::string& path, const StateOwner& owner, const MachineState& state) {
+    const std::vector<std::string>& axes = owner.axes;
     Json json;
     json["version"] = state_version;
+    json["machine"] = owner.machine;
+    json["target"] = owner.target;
     json["axes"] = axes;
     json["position_mm"] = Json::array();
     for (std::size_t k = 0; k < axes.size(); ++k) {

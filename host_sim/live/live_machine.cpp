@@ -39,6 +39,7 @@ LiveMachine::LiveMachine(RunTarget& target, const MachineDescription& machine, c
     if (serves()) {
         find_place();
         known_.axes |= target_->has_feedback() ? 0U : settings.told & all_axes();
+        kept_places_ = places();
         start();
     }
 }
@@ -102,9 +103,7 @@ bool LiveMachine::submit(const FeedSegment& segment, std::uint64_t line, std::ui
     if (first) {
         settings_.signals->supervise(); // from here on a signal is obeyed by the one end
     }
-    if (first && settings_.state != nullptr) {
-        settings_.state->moves();
-    }
+    begin_to_move();
     begin_label(line, moves);
     at_rest_ = segment.ends_at_rest();
     rests_ = false;
@@ -113,6 +112,29 @@ bool LiveMachine::submit(const FeedSegment& segment, std::uint64_t line, std::ui
         start();
     }
     return true;
+}
+
+void LiveMachine::begin_to_move() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (settings_.state == nullptr || std::exchange(moves_, true)) {
+            return;
+        }
+        waits_ = true;
+    }
+    settings_.state->moves();
+}
+
+void LiveMachine::keep() {
+    std::vector<RunTarget::AxisPlace> now = places(); // homing, an e-stop and sleep change them, too
+    {
+        const std::lock_guard lock(mutex_);
+        if (settings_.state == nullptr || (!std::exchange(moves_, false) && now == kept_places_)) {
+            return;
+        }
+        kept_places_ = now;
+    }
+    settings_.state->ends(now);
 }
 
 // Those of segments that are executed are forgotten by come_to().
@@ -232,6 +254,7 @@ void LiveMachine::watch_probe(bool away) noexcept {
 }
 
 void LiveMachine::home(std::uint32_t axes) noexcept {
+    begin_to_move();
     const std::lock_guard lock(mutex_);
     orders_.home = axes;
     known_.homing = HomingPhase::busy;

@@ -32,6 +32,9 @@ namespace splinefeed::host {
 /// ending() says what is true. Each step is bounded. Outputs end earlier, before the axes stand, when a drive is in
 /// fault and at the second request.
 ///
+/// Nothing moves before the state file says that its place is not known, and nobody waits for that: what begins a motion
+/// is kept back, stops go through, and what was kept back is then forgotten.
+///
 /// If a run ends early and the planner does not return within stall_s because an output is blocked, the thread ends the
 /// process with the run's message and exit status 1. After the end of a run a signal does this at once.
 class LiveMachine final : public ControlledMachine {
@@ -45,7 +48,7 @@ public:
     struct Settings {
         std::uint32_t segment_ticks = 0;          ///< of its plans
         SignalWatch* signals = nullptr;           ///< of a run, which has one motion; null: it is served
-        StateKeeper* state = nullptr;             ///< of a run; null: nothing is kept
+        StateKeeper* state = nullptr;             ///< null: nothing is kept
         TargetRecord* record = nullptr;           ///< null: nobody looks
         bool simulates = false;                   ///< it has all outputs that are asked for, as in a simulated run
         PerAxis<double> told_mm{};                ///< where axes stand that do not know it
@@ -129,6 +132,8 @@ public:
     /// "; the machine stands at ..." @pre over()
     [[nodiscard]] const std::string& where() const noexcept { return where_; }
     void describe(Summary& summary) const;
+    /// Of a machine that is served and stands: the state gets its places, if it does not have them.
+    void keep();
 
     /// Whether the program's offsets have changed since the last call.
     [[nodiscard]] bool take_offsets_change() noexcept { return std::exchange(offsets_changed_, false); }
@@ -188,6 +193,7 @@ private:
 
     // live_machine.cpp
     void begin_label(std::uint64_t line, std::uint64_t moves);
+    void begin_to_move();
     void start();
     void leave() noexcept;
     // live_thread.cpp
@@ -196,6 +202,7 @@ private:
     void announce();
     void look_at_switches();
     [[nodiscard]] Orders take_orders();
+    [[nodiscard]] bool may_move();
     void come_to(std::uint64_t executed);
     void end_motion(const MotionEnd& end);
     void finish_motion();
@@ -248,6 +255,9 @@ private:
     std::uint64_t submitted_ = 0; // segments
     std::uint64_t finished_ = 0;  // of motions that are over
     bool busy_ = false;           // an order is carried out
+    bool moves_ = false;          // something has moved since the state was told the places
+    bool waits_ = false;          // nothing does before the file says that no place is known; stops go through
+    std::vector<RunTarget::AxisPlace> kept_places_; // that the state has
     // Of the thread, and after over_ of any thread:
     Phase phase_ = Phase::closed;
     RunOptions options_;

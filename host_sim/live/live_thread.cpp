@@ -65,7 +65,8 @@ LiveMachine::Orders LiveMachine::take_orders() {
     const int asked = !serves() || target_->halts() || signals > 1 ? signals : 0;
     orders_.stops = moves ? std::max(orders_.stops, asked) : 0;
     Orders out = orders_;
-    orders_ = {.stops = out.stops};
+    out.home = waits_ ? 0U : out.home;
+    orders_ = {.stops = out.stops, .home = orders_.home & ~out.home};
     busy_ = out.any();
     gives_up_.store(serves() && leaves_.load()); // what was given up is over
     if (!stop_why_.empty()) {
@@ -74,7 +75,21 @@ LiveMachine::Orders LiveMachine::take_orders() {
     return out;
 }
 
+bool LiveMachine::may_move() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!waits_) {
+            return true;
+        }
+    }
+    const bool kept = settings_.state->is_kept();
+    const std::lock_guard lock(mutex_);
+    waits_ = !kept;
+    return kept;
+}
+
 void LiveMachine::step() {
+    const bool moves = may_move();
     const Orders orders = take_orders();
     if (orders.probe) {
         target_->watch_probe(*orders.probe);
@@ -90,7 +105,7 @@ void LiveMachine::step() {
     }
     come_to(feed_->executed());
     if (phase_ == Phase::ready) {
-        if (const std::optional<MotionEnd> end = feed_->look(orders.stops)) {
+        if (const std::optional<MotionEnd> end = feed_->look(orders.stops, moves)) {
             come_to(feed_->executed());
             end_motion(*end);
         } else {
@@ -101,7 +116,9 @@ void LiveMachine::step() {
         return;
     }
     if (!serves()) {
-        begin_run();
+        if (moves) {
+            begin_run();
+        }
         return;
     }
     feed_->tend_outputs();
@@ -113,7 +130,7 @@ void LiveMachine::step() {
         fail(feed_->trouble(), Alarm::spindle_speed);
     } else if (feed_->waits() && (phase_ == Phase::failed || orders.stops > 0)) {
         drop_motion();
-    } else if (feed_->waits()) {
+    } else if (feed_->waits() && moves) {
         begin_first();
     }
 }
@@ -365,12 +382,13 @@ void LiveMachine::end() noexcept {
         const std::lock_guard lock(mutex_);
         known_.places = places;
     }
-    if (settings_.state != nullptr) {
-        step([&] { settings_.state->ends(places); });
-    }
     if (serves()) {
+        step([&] { keep(); });
         target_->port().close();
     } else {
+        if (settings_.state != nullptr) {
+            step([&] { settings_.state->ends(places); });
+        }
         settings_.signals->at_once(
             [this, sentence = (ending_.empty()
                                    ? std::string("interrupted while outputs were written; the motion was complete")

@@ -18,17 +18,82 @@ constexpr const char* end_without_place =
 
 } // namespace
 
-StateKeeper::StateKeeper(std::string file, std::vector<std::string> axes, MachineState begins)
-    : file_(std::move(file)), axes_(std::move(axes)), kept_(std::move(begins)) {}
+StateKeeper::StateKeeper(const StateFile& file, MachineState begins, Writes writes)
+    : file_(&file), writes_(writes), kept_(std::move(begins)) {
+    if (writes_ == Writes::behind) {
+        thread_ = std::thread([this] { work(); });
+    }
+}
+
+StateKeeper::~StateKeeper() {
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
 
 void StateKeeper::write() {
-    write_state_file(file_, axes_, kept_);
+    ++said_;
+    if (writes_ == Writes::at_once) {
+        file_->write(kept_);
+        written_ = said_;
+    }
+    changed_.notify_all();
+}
+
+// What was said while it wrote is written as one.
+void StateKeeper::work() {
+    std::unique_lock lock(mutex_);
+    while (!over_ && !failure_) {
+        if (written_ == said_) {
+            changed_.wait(lock);
+            continue;
+        }
+        const MachineState state = kept_;
+        const std::uint64_t said = said_;
+        std::exception_ptr failure;
+        lock.unlock();
+        try {
+            file_->write(state);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        lock.lock();
+        written_ = failure ? written_ : said;
+        failure_ = failure;
+        changed_.notify_all();
+    }
+}
+
+bool StateKeeper::is_kept() {
+    const std::lock_guard lock(mutex_);
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+    return written_ == said_;
+}
+
+bool StateKeeper::has_failed() {
+    const std::lock_guard lock(mutex_);
+    return failure_ != nullptr;
+}
+
+void StateKeeper::finish() {
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return failure_ || written_ == said_; });
+    }
+    static_cast<void>(is_kept());
 }
 
 void StateKeeper::moves() {
     const std::lock_guard lock(mutex_);
-    if (is_regular_file(file_)) {
-        before_ = read_text_file(file_, largest_state);
+    if (writes_ == Writes::at_once && is_regular_file(file_->path())) {
+        before_ = read_text_file(file_->path(), largest_state);
     }
     moves_ = true;
     kept_.position_mm.fill(std::nullopt);
@@ -58,9 +123,9 @@ void StateKeeper::ends(std::span<const RunTarget::AxisPlace> places) {
         kept_.unknown_why = end_without_place;
         write();
     } else if (before_) {
-        replace_durably(file_, *before_);
+        replace_durably(file_->path(), *before_);
     } else if (moves_) {
-        remove_replaced(file_);
+        remove_replaced(file_->path());
     }
 }
 

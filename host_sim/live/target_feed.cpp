@@ -174,14 +174,16 @@ std::optional<MotionEnd> TargetFeed::insist() {
     return std::nullopt;
 }
 
-std::optional<MotionEnd> TargetFeed::look(int requests) {
+std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
     hal::PortState state;
     const bool completed = completed_;
     try {
         ask(requests);
         state = port_->poll();
         hold_asked_.store(!target_->holds().empty());
-        hand_over();
+        if (hands_over) {
+            hand_over();
+        }
     } catch (const std::exception& error) {
         set_trouble(error.what());
         ask(1);

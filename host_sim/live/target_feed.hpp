@@ -81,7 +81,8 @@ public:
     void begin(std::uint64_t done) noexcept;
     /// Once a millisecond. Nothing: the motion goes on, or has not begun.
     /// @param requests  to stop, by now: the first one holds all axes on the path, the second one stops them at once
-    [[nodiscard]] std::optional<MotionEnd> look(int requests);
+    /// @param hands_over  false: the port gets no segment
+    [[nodiscard]] std::optional<MotionEnd> look(int requests, bool hands_over = true);
     /// Drops what the port has not taken, and what outputs are told behind segments that were not executed.
     void drop();
     /// Whether a segment waits for the port.

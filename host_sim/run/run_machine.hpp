@@ -26,6 +26,10 @@ struct RunMachine {
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
     /// @param homed  it finds its references first: then it stands at 0, whatever the state says
     [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
+    /// Whose state a run with that target keeps. @param target  "sim", "modbus", "gpio:///dev/gpiochip0?map=..."
+    [[nodiscard]] StateOwner owner(const std::string& target) const {
+        return {axes, machine.name, target.substr(0, target.find(':'))};
+    }
     /// An axis of which nobody told anything stands at 0. Throws InputError where the state says that its place is not
     /// known.
     /// @param file  of the state, for messages

@@ -199,6 +199,10 @@ int run(const RunArguments& arguments) {
     tell_note(arguments.motion.quiet ? "" : note_of(machine_of(arguments), of.machine));
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
+    std::optional<StateFile> state_file;
+    if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
+        state_file.emplace(arguments.state, of.owner(arguments.target));
+    }
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
     MotionArguments motion_arguments = motion_arguments_of(arguments, of);
     input.begin_at(motion_arguments.begins);
@@ -215,8 +219,8 @@ int run(const RunArguments& arguments) {
         real = connect(arguments, of, input, path_limits, figures, motion_arguments.begins);
         motion_arguments.start = &*real.start;
     }
-    if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
-        motion_arguments.state = &state.emplace(arguments.state, of.axes, motion_arguments.begins);
+    if (state_file) {
+        motion_arguments.state = &state.emplace(*state_file, motion_arguments.begins);
     }
     std::optional<RunReport> report;
     if (!arguments.outputs.report.empty()) {

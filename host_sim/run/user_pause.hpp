@@ -10,7 +10,7 @@
 
 namespace splinefeed::host {
 
-/// For the planner's thread. Nothing here waits, but for a standard error whose reader does not read.
+/// For the planner's thread. Nothing here waits.
 class UserPause {
 public:
     /// @param terminal  its lines count while the user is asked; a descriptor of none, or -1, is not read
@@ -36,6 +36,7 @@ public:
 
     void ask() noexcept;
     void forget() noexcept { since_.reset(); }
+    [[nodiscard]] bool asked() const noexcept { return since_.has_value(); }
     /// Called often. Stops the process if it was asked to and the machine stands; returns when it continues.
     /// @param moves  the plan does not stand yet
     /// @param submitted, executed  segments

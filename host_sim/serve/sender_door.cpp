@@ -9,9 +9,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <netinet/tcp.h>
 #include <optional>
 #include <poll.h>
 #include <sys/stat.h>
@@ -35,6 +37,8 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds longest_silence{3};
 constexpr std::chrono::milliseconds terminal_look{100};
 constexpr int most_at_once = 16;
+constexpr int most_waiting = 64;        // connections that are not accepted yet
+constexpr std::size_t most_refused = 8; // connections
 constexpr std::size_t most_unread = std::size_t{64} << 10U;
 constexpr std::size_t most_with_reports = std::size_t{16} << 10U;
 
@@ -48,13 +52,28 @@ struct Sender {
     asio::posix::stream_descriptor stream;
     std::string name;
     SenderGuard guard;
+    StopBytes stops;
     std::string unsent;
     SteadyClock::time_point heard;
     bool is_terminal = false;
     bool present = true;  // of a terminal: somebody has opened it
-    bool refused = false; // and another one has the machine
+    bool refused = false; // another one has the machine,
+    bool stopped = false; // which it has stopped
 };
 using SenderPointer = std::shared_ptr<Sender>;
+
+// The other end answers by itself, however quiet its program is: what does not for so long has lost its link.
+void watch_link(int socket) {
+    const auto set = [socket](int level, int option, int value) {
+        static_cast<void>(::setsockopt(socket, level, option, &value, sizeof value));
+    };
+    const int silence_s = std::chrono::duration_cast<std::chrono::duration<int>>(longest_silence).count();
+    set(SOL_SOCKET, SO_KEEPALIVE, 1);
+    set(IPPROTO_TCP, TCP_KEEPIDLE, 1);
+    set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
+    set(IPPROTO_TCP, TCP_KEEPCNT, silence_s);
+    set(IPPROTO_TCP, TCP_USER_TIMEOUT, silence_s * 1000); // of what was sent, too
+}
 
 std::string reason() {
     return std::strerror(errno);
@@ -87,7 +106,7 @@ public:
         acceptor_.set_option(tcp::acceptor::reuse_address(true));
         acceptor_.bind(place, error);
         if (!error) {
-            acceptor_.listen(8, error);
+            acceptor_.listen(most_waiting, error);
         }
         if (error) {
             throw UsageError("--tcp {}: {}; take another port", in_quotes(address), error.message());
@@ -170,6 +189,7 @@ private:
             if (!error) {
                 const tcp::endpoint from = socket.remote_endpoint(ignored);
                 socket.set_option(tcp::no_delay(true), ignored);
+                watch_link(socket.native_handle());
                 greet(std::make_shared<Sender>(context_, socket.release(),
                                                fmt::format("{}:{}", from.address().to_string(), from.port())));
             }
@@ -179,26 +199,39 @@ private:
 
     // The machine is given to it, or it is told who has it.
     void greet(const SenderPointer& sender) {
-        if (operator_ != nullptr && SteadyClock::now() - operator_->heard > longest_silence && events_.idle()) {
+        if (operator_ != nullptr && SteadyClock::now() - operator_->heard > longest_silence && events_.rests()) {
             events_.noted(fmt::format("{} was silent, and {} takes the machine", operator_->name, sender->name));
             const SenderPointer silent = operator_;
             drop(silent);
         }
+        sender->guard = {};
         if (operator_ != nullptr) {
-            boost::system::error_code ignored;
-            const std::string busy = fmt::format("[MSG:Busy: {} has the machine]\r\n", operator_->name);
-            sender->stream.write_some(asio::buffer(busy), ignored);
-            events_.noted(fmt::format("{} was sent away: {} has the machine", sender->name, operator_->name));
-            sender->refused = true;
-            if (sender->is_terminal) { // it stays, and is not heard
-                read(sender);
-            }
+            refuse(sender);
             return;
         }
         operator_ = sender;
-        sender->guard = {};
         sender->heard = SteadyClock::now();
         events_.opened(sender->name);
+        read(sender);
+    }
+
+    // It is heard for what stops the machine.
+    void refuse(const SenderPointer& sender) {
+        boost::system::error_code ignored;
+        const std::string busy = fmt::format("[MSG:Busy: {} has the machine]\r\n", operator_->name);
+        sender->stream.write_some(asio::buffer(busy), ignored);
+        events_.noted(fmt::format("{} was refused: {} has the machine", sender->name, operator_->name));
+        sender->refused = true;
+        sender->stopped = false;
+        sender->stops = {};
+        if (!sender->is_terminal) {
+            std::erase_if(refused_, [](const std::weak_ptr<Sender>& one) { return one.expired(); });
+            if (refused_.size() == most_refused) {
+                drop(refused_.front().lock());
+                refused_.pop_front();
+            }
+            refused_.push_back(sender);
+        }
         read(sender);
     }
 
@@ -220,20 +253,35 @@ private:
             return;
         }
         if (error || size == 0) {
+            if (error == asio::error::timed_out) {
+                events_.noted(fmt::format("{} has gone: its link does not answer", sender->name));
+            }
             drop(sender);
             return;
         }
         sender->heard = SteadyClock::now();
         std::string through;
-        if (!sender->refused && !sender->guard.take({bytes.data(), size}, through)) {
-            events_.noted(fmt::format("{} speaks HTTP or TLS: nothing of it was executed", sender->name));
+        if (!sender->guard.take({bytes.data(), size}, through)) {
+            events_.noted(
+                fmt::format("{} is no sender (HTTP, TLS, STUN, or no text): nothing of it was executed", sender->name));
             drop(sender);
             return;
         }
-        if (!through.empty() && operator_ == sender) {
+        if (sender->refused) {
+            stop(sender, through);
+        } else if (!through.empty() && operator_ == sender) {
             events_.received(through);
         }
         read(sender);
+    }
+
+    void stop(const SenderPointer& sender, std::string_view bytes) {
+        for (const RealtimeByte byte : sender->stops.take(bytes)) {
+            events_.stopped(byte);
+            if (!std::exchange(sender->stopped, true)) {
+                events_.noted(fmt::format("{}, which was refused, stops the machine", sender->name));
+            }
+        }
     }
 
     void drop(const SenderPointer& sender) {
@@ -329,6 +377,7 @@ private:
     asio::steady_timer timer_{context_};
     SenderPointer operator_;
     SenderPointer terminal_;
+    std::deque<std::weak_ptr<Sender>> refused_; // the oldest one first
     std::optional<asio::posix::stream_descriptor> input_;
     std::function<void(std::string_view)> on_line_;
     std::string input_text_;

@@ -2,6 +2,8 @@
 // SenderDoor: where senders connect: a TCP port of this computer, and a pseudo terminal.
 #pragma once
 
+#include "splinefeed/controller/realtime_byte.hpp"
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -13,16 +15,19 @@ namespace splinefeed::host {
 /// Whether this build has sockets.
 [[nodiscard]] bool has_sender_door() noexcept;
 
-/// One sender at a time has the machine. Another one is told so and sent away, unless the first has been silent for
-/// 3 s and the machine is idle. All that comes is read at once, so a stop never waits behind lines. A sender that does
-/// not read loses reports, and with 64 KiB unread the machine. For one thread.
+/// One sender at a time has the machine. Another one is told so, and all that it may do is to stop the machine. It has
+/// to connect anew, when the first one has gone, or was silent for 3 s and nothing moves. A sender whose computer or
+/// link does not answer for 3 s has gone. All that comes is read at once, so a stop never waits behind lines. A sender
+/// that does not read loses reports, and with 64 KiB unread the machine. For one thread, which never waits here but in
+/// wait().
 class SenderDoor {
 public:
     struct Events {
         std::function<void(const std::string& name)> opened; ///< it has the machine
         std::function<void(std::string_view bytes)> received;
+        std::function<void(RealtimeByte stop)> stopped;     ///< by anybody, for the machine at once
         std::function<void()> closed;                       ///< it has gone
-        std::function<bool()> idle;                         ///< whether another one may take the machine
+        std::function<bool()> rests;                        ///< whether another one may take the machine
         std::function<void(const std::string& text)> noted; ///< for the log: who was sent away, and why
     };
 

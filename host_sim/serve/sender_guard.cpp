@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/serve/sender_guard.hpp"
 
-#include "splinefeed/controller/realtime_byte.hpp"
-
 #include <algorithm>
 #include <cctype>
 
@@ -10,10 +8,14 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr char tls_greeting = '\x16';
-
 bool acts(char c) {
-    return realtime_byte(static_cast<std::uint8_t>(c)).kind != RealtimeKind::none;
+    const RealtimeKind kind = realtime_byte(static_cast<std::uint8_t>(c)).kind;
+    return kind != RealtimeKind::none && kind != RealtimeKind::nothing;
+}
+
+// TLS begins with 0x16, STUN by TCP with its length, below 0x0200; a terminal over a network with 0xff.
+bool is_text(char c) {
+    return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n';
 }
 
 } // namespace
@@ -32,7 +34,7 @@ bool SenderGuard::take(std::string_view bytes, std::string& out) {
             out += c;
             continue;
         }
-        if (c == tls_greeting || first_.size() == longest_line) {
+        if (!(is_text(c) || acts(c)) || first_.size() == longest_line) {
             return false;
         }
         const bool ends = c == '\n' || c == '\r';
@@ -46,6 +48,27 @@ bool SenderGuard::take(std::string_view bytes, std::string& out) {
         }
     }
     return true;
+}
+
+std::vector<RealtimeByte> StopBytes::take(std::string_view bytes) {
+    std::vector<RealtimeByte> out;
+    for (const char c : bytes) {
+        const auto byte = static_cast<std::uint8_t>(c);
+        if (left_ > 0 && (byte & 0xc0U) == 0x80U) {
+            --left_;
+            continue;
+        }
+        left_ = byte < 0xc3 || byte > 0xf4 ? 0 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
+        switch (const RealtimeByte meaning = realtime_byte(byte); meaning.kind) {
+        case RealtimeKind::hold:
+        case RealtimeKind::reset:
+        case RealtimeKind::stop:
+        case RealtimeKind::door:
+        case RealtimeKind::jog_cancel: out.push_back(meaning); break;
+        default: break;
+        }
+    }
+    return out;
 }
 
 } // namespace splinefeed::host

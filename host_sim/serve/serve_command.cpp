@@ -59,6 +59,10 @@ int run_serve(const ServeArguments& arguments) {
     const MachineChoice choice{arguments.machine, arguments.settings};
     RunMachine machine(choice, *input_format("gcode"));
     tell_note(note_of(choice, machine.machine));
+    std::optional<StateFile> state_file;
+    if (arguments.state) {
+        state_file.emplace(*arguments.state, machine.owner(arguments.target));
+    }
     const MachineState begins = machine.state(arguments.state.value_or(""), "");
     LiveMachine::Settings live_settings = places_of(begins, machine.machine);
     const TargetKind& kind = target_kind(arguments.target);
@@ -69,16 +73,16 @@ int run_serve(const ServeArguments& arguments) {
     }
     live_settings.simulates = !kind.is_real;
     live_settings.segment_ticks = fit_to_target(machine.machine, ScalarKind::fixed, *target, false).segment_ticks;
+    std::optional<StateKeeper> state;
+    if (state_file) {
+        state.emplace(*state_file, begins, StateKeeper::Writes::behind);
+    }
+    live_settings.state = state ? &*state : nullptr;
     LiveMachine live(*target, machine.machine, live_settings,
                      [&] { return make_outputs(machine.machine, arguments.target); });
     const SwitchFacts switches = target->switch_facts();
     const ControllerSettings settings = serve_settings(machine, switches);
     ServedMotion motion(machine.machine, settings);
-    std::optional<StateKeeper> state;
-    if (arguments.state) {
-        state.emplace(*arguments.state, machine.axes, begins);
-    }
-    signals.supervise(); // before anybody can connect
     Server server(settings, motion, live, state ? &*state : nullptr, begins, console);
     std::string places;
     if (arguments.tcp) {
@@ -92,11 +96,17 @@ int run_serve(const ServeArguments& arguments) {
         places += "type help for what can be typed here\n";
         server.door().watch_input([&server](std::string_view line) { server.type(line); });
     }
-    print_whole(places, "the address");
+    print_whole(places, "the address"); // nobody is heard before, and a signal ends what waits for a reader
+    signals.supervise();
     server.run(signals);
     const std::string& unconfirmed = live.finish();
     if (!unconfirmed.empty()) {
         tell("splinefeed: {}\n", printable(unconfirmed));
+    }
+    if (state) {
+        signals.at_once([] { abandon("interrupted while the state file was written: it may know no place", 1); });
+        state->finish();
+        signals.supervise();
     }
     return unconfirmed.empty() ? 0 : 1;
 }

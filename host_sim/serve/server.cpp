@@ -103,8 +103,7 @@ constexpr std::string_view sign_of_life = "\xff"; // a byte that does nothing
 Server::Server(const ControllerSettings& settings, ServedMotion& motion, LiveMachine& live, StateKeeper* state,
                const MachineState& begins, bool says)
     : motion_(&motion.motion()), live_(&live), state_(state), lines_(line_memory), answers_(answer_memory),
-      text_(answer_memory), controller_(settings, *motion_, live, {lines_, answers_}), says_(says),
-      places_(live.places()) {
+      text_(answer_memory), controller_(settings, *motion_, live, {lines_, answers_}), says_(says) {
     motion_->interpreter().restore(begins.offsets);
     door_ = make_sender_door({
         .opened =
@@ -115,8 +114,13 @@ Server::Server(const ControllerSettings& settings, ServedMotion& motion, LiveMac
                 controller_.connect();
             },
         .received = [this](std::string_view bytes) { controller_.receive(bytes, now_ms()); },
+        .stopped = [this](RealtimeByte byte) { controller_.act(byte); },
         .closed = [this] { controller_.disconnect(); },
-        .idle = [this] { return controller_.state() == ControllerState::idle; },
+        .rests =
+            [this] {
+                const ControllerState now = controller_.state();
+                return is_at_rest() && now != ControllerState::run && now != ControllerState::jog;
+            },
         .noted = [](const std::string& text) { tell("splinefeed: {}\n", printable(text)); },
     });
 }
@@ -144,37 +148,43 @@ void Server::obey(SignalWatch& signals) {
         controller_.act(reset_byte);
         leaves_ = true;
     }
-    switch (signals.take_steering()) {
-    case UserSteering::hold:
-    case UserSteering::held: controller_.act({RealtimeKind::hold}); break;
+    const UserSteering steering = signals.take_steering();
+    if (steering != UserSteering::none) {
+        suspend_.forget();
+    }
+    switch (steering) {
+    case UserSteering::suspend: suspend_.ask(); break;
+    case UserSteering::held: UserSuspend::tell_held(); [[fallthrough]];
+    case UserSteering::hold: controller_.act({RealtimeKind::hold}); break;
     case UserSteering::resume: controller_.act({RealtimeKind::resume}); break;
-    case UserSteering::suspend:
     case UserSteering::none: break;
     }
 }
 
+// A search for references is not held: the process stops behind it.
+void Server::suspend() {
+    if (leaves_) {
+        suspend_.forget();
+    } else if (suspend_.asked()) {
+        controller_.act({RealtimeKind::hold});
+        suspend_.follow(!is_at_rest(), 0, 0, live_->spindle_stands());
+    }
+}
+
+bool Server::is_at_rest() const {
+    return live_->stands() && motion_->at_rest() && controller_.state() != ControllerState::home;
+}
+
 void Server::step() {
     controller_.execute(now_ms());
-    if (controller_.state() == ControllerState::home) {
-        moves();
-    }
     FeedSegment segment;
     bool more = true;
     while (live_->has_room() && (more = controller_.next(segment, live_->is_dry(), now_ms()) == Pull::item)) {
-        moves();
         live_->submit(segment);
     }
     if (!more && motion_->at_rest() && (motion_->exhausted() || live_->is_dry())) {
         live_->rest();
     }
-}
-
-// Until it stands the state file knows no place.
-void Server::moves() {
-    if (!moved_ && state_ != nullptr) {
-        state_->moves();
-    }
-    moved_ = true;
 }
 
 void Server::answer() {
@@ -194,14 +204,8 @@ void Server::keep() {
     if (live_->take_offsets_change()) {
         state_->offsets(motion_->interpreter().offsets());
     }
-    if (!live_->stands() || !motion_->exhausted()) {
-        return;
-    }
-    std::vector<RunTarget::AxisPlace> places = live_->places(); // homing, an e-stop and sleep change them, too
-    if (moved_ || places != places_) {
-        state_->ends(places);
-        places_ = std::move(places);
-        moved_ = false;
+    if (is_at_rest() && motion_->exhausted()) {
+        live_->keep();
     }
 }
 
@@ -209,6 +213,7 @@ void Server::run(SignalWatch& signals) {
     for (bool reset = false; !leaves_ || !live_->stands() || !motion_->at_rest();) {
         door_->wait(period);
         obey(signals);
+        leaves_ = leaves_ || (state_ != nullptr && state_->has_failed());
         if (leaves_ && !reset && requests_ == 0) {
             controller_.act(reset_byte);
         }
@@ -219,10 +224,7 @@ void Server::run(SignalWatch& signals) {
         step();
         answer();
         keep();
-    }
-    moved_ = moved_ && state_ != nullptr;
-    if (moved_) {
-        state_->ends(live_->places());
+        suspend();
     }
 }
 

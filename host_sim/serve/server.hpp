@@ -4,6 +4,7 @@
 
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/live/live_machine.hpp"
+#include "host_sim/run/user_pause.hpp"
 #include "host_sim/serve/sender_door.hpp"
 #include "host_sim/serve/served_motion.hpp"
 
@@ -11,9 +12,11 @@
 
 namespace splinefeed::host {
 
+/// Its thread obeys: it waits for no disk, no reader and no sender.
 class Server {
 public:
-    /// All must outlive it. @param state  null: nothing is kept   @param begins  offsets, and where the machine stands
+    /// All must outlive it. @param state  writes behind; null: nothing is kept   @param begins  offsets, and where the
+    /// machine stands
     /// @param says  tells the operator's terminal what happens
     Server(const ControllerSettings& settings, ServedMotion& motion, LiveMachine& live, StateKeeper* state,
            const MachineState& begins, bool says);
@@ -23,16 +26,18 @@ public:
     [[nodiscard]] SenderDoor& door() noexcept { return *door_; }
     /// A line that was typed at the server's terminal.
     void type(std::string_view line);
-    /// Serves until `signals` ask for the end, and the machine stands. A second request stops it at once.
+    /// Serves until `signals` ask for the end, or the state cannot be written, and the machine stands. A second request
+    /// stops it at once. What is then kept of the state is still to be written.
     void run(SignalWatch& signals);
 
 private:
     using Clock = std::chrono::steady_clock;
 
     [[nodiscard]] std::uint32_t now_ms() const;
+    [[nodiscard]] bool is_at_rest() const;
     void obey(SignalWatch& signals);
+    void suspend();
     void step();
-    void moves();
     void answer();
     void keep();
 
@@ -48,8 +53,7 @@ private:
     int requests_ = 0; // to end, that were obeyed
     bool says_;
     bool leaves_ = false;
-    bool moved_ = false;                       // since the state was kept,
-    std::vector<RunTarget::AxisPlace> places_; // which has these places
+    UserSuspend suspend_;
 };
 
 } // namespace splinefeed::host

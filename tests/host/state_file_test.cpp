@@ -13,6 +13,8 @@
 #include <random>
 
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -55,7 +57,7 @@ TEST_CASE("A state is read as it was written, to the last digit") {
     std::mt19937_64 random(5); // NOLINT: the same states each time
     for (int i = 0; i < 50; ++i) {
         const MachineState state = random_state(random);
-        write_state_file(file, xyz, state);
+        write_state_file(file, {xyz}, state);
         const auto read = read_state_file(file, xyz);
         REQUIRE(read.has_value());
         CHECK(*read == state);
@@ -65,7 +67,7 @@ TEST_CASE("A state is read as it was written, to the last digit") {
 TEST_CASE("What is no state of this machine is refused, not taken for offsets of 0") {
     const TemporaryFolder folder;
     const std::string file = folder.file("state.json");
-    write_state_file(file, xyz, {});
+    write_state_file(file, {xyz}, {});
     const auto refusal = [&](const std::vector<std::string>& axes) {
         return refusal_of([&] { static_cast<void>(read_state_file(file, axes)); });
     };
@@ -77,20 +79,55 @@ TEST_CASE("What is no state of this machine is refused, not taken for offsets of
     }
 }
 
+TEST_CASE("A state belongs to one machine and to what moves it: a place of a simulation is none of the machine") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("state.json");
+    const auto refusal = [&](const StateOwner& owner) {
+        return refusal_of([&] { StateFile(file, owner).write({}); });
+    };
+    CHECK(refusal({xyz, "mill", "modbus"}) == "accepted");
+    CHECK(refusal({xyz, "mill", "modbus"}) == "accepted");
+    CHECK(refusal({xyz, "mill", "sim"}) ==
+          file +
+              ": it is the state of 'mill' on --target modbus, not of 'mill' on --target sim; give each its own file");
+    CHECK(refusal({xyz, "lathe", "modbus"}).find("not of 'lathe' on --target modbus") != std::string::npos);
+    CHECK(read_state_file(file, xyz).has_value()); // what only reads it may do so
+    replace_durably(file, R"({"version": 1, "axes": ["x", "y", "z"]})");
+    CHECK(refusal({xyz, "mill", "modbus"}).find("\"version\" is missing or wrong") != std::string::npos);
+}
+
+TEST_CASE("A state is kept by one process at a time, whatever it calls the file") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("state.json");
+    std::filesystem::create_symlink("state.json", folder.file("link"));
+    const StateFile held(folder.file("link"), {xyz});
+    const pid_t other = fork();
+    if (other == 0) {
+        _exit(refusal_of([&] { StateFile(file, {xyz}).write({}); }).find(" keeps its state there; end that first") !=
+                      std::string::npos
+                  ? 0
+                  : 1);
+    }
+    int status = 1;
+    REQUIRE(waitpid(other, &status, 0) == other);
+    CHECK(status == 0);
+    CHECK_FALSE(std::filesystem::exists(file));
+}
+
 TEST_CASE("A symbolic link to a state that is not there yet stays one, and so does one to a link") {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.file("kept"));
     std::filesystem::create_symlink("kept/state.json", folder.file("near"));
     std::filesystem::create_symlink(folder.file("near"), folder.file("far"));
     for (const char* const name : {"far", "near", "far"}) {
-        write_state_file(folder.file(name), xyz, {});
+        write_state_file(folder.file(name), {xyz}, {});
         CHECK(std::filesystem::is_symlink(folder.file("near")));
         CHECK(std::filesystem::is_symlink(folder.file("far")));
         CHECK(std::filesystem::is_regular_file(folder.file("kept/state.json")));
         std::filesystem::remove(folder.file("kept/state.json"));
     }
     std::filesystem::create_symlink("loop", folder.file("loop"));
-    CHECK_THROWS(write_state_file(folder.file("loop"), xyz, {}));
+    CHECK_THROWS(write_state_file(folder.file("loop"), {xyz}, {}));
 }
 
 TEST_CASE("A state that may be there and cannot be read is an error, and no state of 0") {
@@ -99,7 +136,7 @@ TEST_CASE("A state that may be there and cannot be read is an error, and no stat
         return refusal_of([&] { static_cast<void>(read_state_file(file, xyz)); });
     };
     const std::string file = folder.file("state.json");
-    write_state_file(file, xyz, {});
+    write_state_file(file, {xyz}, {});
     CHECK(refusal(file + "/state.json") ==
           file + "/state.json: there is no such folder; name a file in a folder that exists");
     CHECK(refusal(folder.file("none") + "/state.json").find("/none/state.json: there is no such folder") !=
@@ -118,12 +155,12 @@ TEST_CASE("A state is written beside nothing that is there, whoever put it there
         std::ifstream in(folder.file(name));
         return std::string(std::istreambuf_iterator<char>(in), {});
     };
-    write_state_file(file, xyz, {});
+    write_state_file(file, {xyz}, {});
     std::ofstream(folder.file("victim")) << "kept";
     std::ofstream(folder.file("s.json.tmp")) << "kept, too";
     std::filesystem::create_symlink("victim", folder.file("s.json.new"));
     for (int i = 0; i < 3; ++i) {
-        write_state_file(file, xyz, {});
+        write_state_file(file, {xyz}, {});
     }
     CHECK(content("victim") == "kept");
     CHECK(content("s.json.tmp") == "kept, too");
@@ -143,11 +180,12 @@ TEST_CASE("What is no regular file is never replaced by a state, and is refused 
     const std::string pipe = folder.file("pipe");
     REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
     std::filesystem::create_symlink("pipe", folder.file("link"));
-    const std::string why = pipe + ": is a pipe, which cannot be replaced; name a file, or one that is not there yet";
+    const std::string words = ": is a pipe, which cannot be replaced; name a file, or one that is not there yet";
+    const std::string why = pipe + words;
     CHECK(refusal_of([&] { static_cast<void>(read_state_file(pipe, xyz)); }) == why);
     for (const char* const name : {"pipe", "link"}) {
-        CHECK(refusal_of<std::runtime_error>([&] { write_state_file(folder.file(name), xyz, {}); }) == why);
-        CHECK_THROWS(StateKeeper(folder.file(name), xyz, {}).moves());
+        CHECK(refusal_of<std::runtime_error>([&] { write_state_file(folder.file(name), {xyz}, {}); }) == why);
+        CHECK(refusal_of([&] { StateFile(folder.file(name), {xyz}).write({}); }) == folder.file(name) + words);
     }
     CHECK(std::filesystem::is_fifo(pipe));
     CHECK(std::filesystem::is_symlink(folder.file("link")));
@@ -158,7 +196,8 @@ TEST_CASE("A run that moves nothing leaves the name of its state as it was, also
     const TemporaryFolder folder;
     std::filesystem::create_symlink("kept.json", folder.file("link"));
     for (const char* const name : {"link", "none"}) {
-        StateKeeper state(folder.file(name), xyz, {});
+        const StateFile file(folder.file(name), {xyz});
+        StateKeeper state(file, {});
         state.moves();
         CHECK(read_state_file(folder.file(name), xyz).has_value());
         state.ends({});

@@ -6,6 +6,7 @@
 #include "temporary_folder.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 using namespace splinefeed_test;
 
@@ -201,11 +202,12 @@ TEST_CASE("the state says that no place is known before anything moves, and at t
     const std::vector<std::string> axes{"x", "y"};
     MachineState begins;
     begins.position_mm = {1.0, 2.0};
-    write_state_file(file, axes, begins);
+    write_state_file(file, {axes}, begins);
     const auto kept = [&] {
         return read_state_file(file, axes).value();
     };
-    StateKeeper state(file, axes, begins);
+    const StateFile kept_file(file, {axes});
+    StateKeeper state(kept_file, begins);
     SignalWatch signals({});
     TalkingTarget target;
     const auto run = [&] {
@@ -245,10 +247,12 @@ TEST_CASE("the state says that no place is known before anything moves, and at t
         CHECK(kept().position_mm[1] == 6.0);
     }
     SECTION("it cannot be written") {
-        StateKeeper nowhere("/no/such/folder/s.json", axes, begins);
+        std::filesystem::create_directory(folder.file("gone"));
+        const StateFile gone(folder.file("gone/s.json"), {axes});
+        std::filesystem::remove(folder.file("gone"));
+        StateKeeper nowhere(gone, begins);
         Supervision supervision(target, signals, nullptr, &nowhere);
-        CHECK_THROWS_WITH(supervision.submit(segment(0)),
-                          Catch::Contains("/no/such/folder/s.json: cannot be written: "));
+        CHECK_THROWS_WITH(supervision.submit(segment(0)), Catch::Contains("/gone/s.json: cannot be written: "));
         static_cast<void>(supervision.finish());
         CHECK(target.told().empty());
     }

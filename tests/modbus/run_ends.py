@@ -52,6 +52,10 @@ def start(tool, folder, name, drives, profile, options, text):
         file.write("G4 P0.01\n")
     subprocess.run([tool, "run", "zero.ngc", "-m", "machine.toml", "--state", "state.json", "--position", f"{OLD},{OLD}", "--quiet"],
                    cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    with open(os.path.join(folder, "state.json"), "r+", encoding="utf-8") as file:
+        text_of_drives = file.read().replace('"target": "sim"', '"target": "modbus"')  # a simulation has no drives
+        file.seek(0)
+        file.write(text_of_drives)
     command = [tool, "run", program if text else "-", "-m", "machine.toml", "--target", "modbus", "--state", "state.json",
                "--quiet", *options.split()]
     if not text:
@@ -96,7 +100,7 @@ def judge(folder, tool, state, drives, problems):
             problems.append(f"the shafts stand at {shafts}, and the state says {kept}")
     elif kept != expected:
         problems.append(f"the state says {kept}, not {expected}")
-    again = [tool, "run", "zero.ngc", "-m", "machine.toml", "--state", "state.json", "--quiet"]
+    again = [tool, "plan", "zero.ngc", "-m", "machine.toml", "--state", "state.json", "--quiet"]
     told = subprocess.run(again, cwd=folder, capture_output=True, text=True, check=False)
     if state == "unknown":
         if told.returncode != 2 or "where x, y stand is not known: " not in told.stderr or "--position" not in told.stderr:

@@ -23,10 +23,10 @@ class Failed(Exception):
 class Server:
     """`splinefeed serve` with a TCP port and a pseudo terminal."""
 
-    def __init__(self, tool, folder, *options, machine):
+    def __init__(self, tool, folder, *options, machine, stderr=subprocess.PIPE):
         self.pty = os.path.join(folder, "machine_pty")
         self.process = started([tool, "serve", "-m", machine, "--tcp", "127.0.0.1:0", "--pty", self.pty, *options],
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=stderr, text=True)
         self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
         self.process.stdout.readline()
 
