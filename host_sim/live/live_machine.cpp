@@ -267,11 +267,17 @@ bool LiveMachine::halt() noexcept {
     return halts;
 }
 
-void LiveMachine::quick_stop() noexcept {
+// That has not begun.
+void LiveMachine::give_up_homing() noexcept {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(orders_.home, 0U) != 0) { // not begun
+    if (std::exchange(orders_.home, 0U) != 0) {
         known_.homing = HomingPhase::failed;
     }
+}
+
+void LiveMachine::quick_stop() noexcept {
+    give_up_homing();
+    const std::lock_guard lock(mutex_);
     orders_.stops = submitted_ != finished_ ? 2 : orders_.stops;
     gives_up_.store(true);
 }

@@ -194,6 +194,7 @@ private:
     // live_machine.cpp
     void begin_label(std::uint64_t line, std::uint64_t moves);
     void begin_to_move();
+    void give_up_homing() noexcept;
     void start();
     void leave() noexcept;
     // live_thread.cpp

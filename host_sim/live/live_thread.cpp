@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the thread of a LiveMachine does: looks, motions of the port, and the one end.
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/live/live_machine.hpp"
 #include "host_sim/output/place_text.hpp"
@@ -82,10 +83,16 @@ bool LiveMachine::may_move() {
             return true;
         }
     }
-    const bool kept = settings_.state->is_kept();
-    const std::lock_guard lock(mutex_);
-    waits_ = !kept;
-    return kept;
+    try {
+        const bool kept = settings_.state->is_kept();
+        const std::lock_guard lock(mutex_);
+        waits_ = !kept;
+        return kept;
+    } catch (const OutputError& error) { // what waits is forgotten
+        give_up_homing();
+        fail(error.what());
+        return false;
+    }
 }
 
 void LiveMachine::step() {

@@ -287,7 +287,8 @@ def unwritable(tool, folder):
                 pass
         except Failed:
             pass  # it is closed
-        require((b"Grbl 1.1h" in sender.text) == moves, f"the machine was not reset, or has moved: {sender.text}")
+        said = b"Grbl 1.1h" if moves else b"state.json: cannot be written"
+        require(said in sender.text, f"the machine was not reset, or its sender not told: {sender.text}")
         sender.close()
 
 
