@@ -198,6 +198,7 @@ private:
     void end_motion(const MotionEnd& end);
     void finish_motion();
     void drop_motion();
+    [[nodiscard]] Alarm trouble_alarm() const;
     void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
     void fail_by(const std::string& sentence);
     bool look_where(bool at_once);

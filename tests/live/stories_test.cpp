@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The stories of stories.txt, on a LiveMachine in virtual time: as a run, and as a machine that is served.
+#include "host_sim/base/output_file.hpp"
 #include "host_sim/live/live_machine.hpp"
 
 #include "host/temporary_folder.hpp"
@@ -44,12 +45,14 @@ std::vector<Story> read_stories() {
             continue;
         }
         std::istringstream words(line);
-        bool opens = true;
-        for (std::string word; words >> word; opens = word == "|" || word == "+") {
-            if (opens) {
-                out.back().steps.push_back({number, word == "+", ""});
-            }
+        out.back().steps.push_back({number, false, {}});
+        for (std::string word; words >> word;) {
             std::string& text = out.back().steps.back().text;
+            if (word == "|" || word == "+") {
+                out.back().steps.push_back({number, word == "+", {}});
+                continue;
+            }
+            text += (text.empty() ? "" : " ") + word;
         }
     }
     return out;
@@ -73,27 +76,23 @@ class Teller {
 public:
     explicit Teller(bool serves) : serves_(serves) {}
 
-    void tell(const std::string& line) {
-        const bool together = line.starts_with("+ ");
-        if (!together) {
+    void tell(const std::string& step, bool at_once) {
+        if (!at_once && !step.empty()) {
             world_.clock.sleep_us(20 * us_per_ms);
         }
-        std::istringstream words(line.substr(together ? 2 : 0));
+        std::istringstream words(step);
         std::string word;
-        std::string rest;
-        words >> word >> std::ws;
+        words >> word;
         if (word == "run:" || word == "serve:") {
-            std::getline(words, rest);
-            if (serves_ == (word == "serve:")) {
-                tell("+ " + rest);
+            if (const std::string rest = rest_of(words); serves_ == (word == "serve:")) {
+                tell(rest, true);
             }
         } else if (const auto asked = questions_.find(word); asked != questions_.end()) {
-            std::getline(words, rest);
-            const std::string expected = of_door(rest);
+            const std::string expected = of_door(rest_of(words));
             const std::string got = asked->second();
             INFO("expected: " << expected << "\n  got:      " << got);
             REQUIRE(fnmatch(expected.c_str(), got.c_str(), 0) == 0);
-        } else {
+        } else if (!word.empty()) {
             order(word, words);
         }
     }
@@ -239,6 +238,7 @@ private:
         add(serves_ && !reading.stands, reading.executes ? fmt::format("in move {}", reading.waypoint) : "busy");
         add(serves_ && !reading.known, "unknown");
         add(true, homing[static_cast<std::size_t>(reading.homing)]);
+        add(!reading.note.empty(), "note: " + std::string(reading.note));
         add(reading.alarm != Alarm::none,
             alarms.at(reading.alarm) + " alarm: " + std::string(reading.alarm_sentence));
         return out;
@@ -254,9 +254,9 @@ private:
         const MachineState state = read_state_file(file_, axes_).value();
         std::string out;
         for (unsigned k = 0; k < axes_.size(); ++k) {
-            out += text_of(state.position_mm[k]) + " ";
+            out += (out.empty() ? "" : " ") + text_of(state.position_mm[k]);
         }
-        return out + state.unknown_why;
+        return out + (state.unknown_why.empty() ? "" : " ") + state.unknown_why;
     }
 
     bool serves_;
@@ -287,7 +287,7 @@ private:
         {"known", [this](Words& words) { told_ = static_cast<std::uint32_t>(number_of(words)); }},
         {"state", [this](Words& words) { keep(words); }},
         {"at-renewal", [this](Words& words) {
-             world_.renewal = [this, line = "+ " + rest_of(words)] { tell(line); };
+             world_.renewal = [this, step = rest_of(words)] { tell(step, true); };
          }},
         {"begin", [this](Words&) { machine(); }},
         {"move", [this](Words& words) { move(words); }},
@@ -342,9 +342,9 @@ TEST_CASE("stories of a machine in motion", "[live]") {
             if (story.door != (serves ? "run" : "serve")) {
                 DYNAMIC_SECTION((serves ? "serve: " : "run: ") << story.name) {
                     Teller teller(serves);
-                    for (const auto& [number, line] : story.lines) {
-                        INFO("stories.txt:" << number << ": " << line);
-                        teller.tell(line);
+                    for (const Step& step : story.steps) {
+                        INFO("stories.txt:" << step.line << ": " << step.text);
+                        teller.tell(step.text, step.at_once);
                     }
                     teller.end();
                 }
