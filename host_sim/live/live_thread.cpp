@@ -311,7 +311,8 @@ void LiveMachine::note_silence(const std::vector<RunTarget::AxisPlace>& places, 
     }
     heard_us_ = silent.empty() ? now_us : heard_us_;
     const bool says = now_us - heard_us_ > silence_us;
-    known_.note = says ? "No answer from " + silent + ": the axes are held; look at its power and cable" : std::string();
+    known_.note =
+        says ? "No answer from " + silent + ": the axes are held; look at its power and cable" : std::string();
 }
 
 // A spindle that was ended comes to a standstill by its own ramp, and modules confirm what they were told; a further
@@ -379,10 +380,10 @@ void LiveMachine::end() noexcept {
         target_->port().close();
     } else {
         settings_.signals->at_once(
-            [this, sentence = (ending_.empty()
-                                   ? std::string("interrupted while outputs were written; the motion was complete")
-                                   : ending_) +
-                              where_] {
+            [this, sentence =
+                       (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete")
+                                        : ending_) +
+                       where_] {
                 target_->port().close();
                 abandon(sentence, not_finished);
             });

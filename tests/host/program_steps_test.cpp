@@ -12,7 +12,7 @@ namespace {
 struct Bench {
     Bench() {
         world.set("mute");
-        world.set("outputs", "spindle switches inputs");
+        world.set("outputs spindle switches inputs");
         static_cast<void>(told());
     }
 
@@ -56,8 +56,9 @@ struct Bench {
     SignalWatch signals{{}};
     MachineDescription machine = talking_machine();
     TalkingTarget target{world};
-    LiveMachine live{target, machine, {.segment_ticks = 8000, .signals = &signals, .clock = &world.clock},
-                     [this] { return world.outputs(); }};
+    LiveMachine live{target, machine, {.segment_ticks = 8000, .signals = &signals, .clock = &world.clock}, [this] {
+                         return world.outputs();
+                     }};
     ProgramSteps steps{figures, false, live};
 };
 
@@ -138,7 +139,7 @@ TEST_CASE("A pause begins when the machine has come to its place, and ends when 
 
 TEST_CASE("An input is asked at standstill, and the program gets its answer once") {
     Bench bench;
-    bench.world.set("level", "1");
+    bench.world.set("level 1");
     bench.add(EventKind::input_wait, 0, 10.0, true);
     bench.begin(0);
     PerAxis<double> here{};

@@ -22,39 +22,35 @@ using namespace splinefeed::host;
 /// What is true of a target and its outputs, and what they were told. One virtual thread runs at a time: no locks.
 class TalkingWorld {
 public:
-    void set(const std::string& fact, const std::string& value = {}) {
-        static const std::set<std::string> facts{
-            "refuses", "fault",  "holds",     "achieves",  "breaks",  "blows", "unfinished", "full",  "deaf",
-            "blind",   "homes",  "executes",  "unsure",    "lost",    "brakes", "cause",     "absent", "unready",
-            "searching", "preparing", "turning", "slow",   "silent", "stop_s",    "severed", "hangs",
-            "level",   "mute", "unread", "outputs",   "unreachable"};
-        if (!facts.contains(fact)) {
-            throw std::invalid_argument("no such fact: " + fact);
-        }
-        facts_[fact] = value;
+    /// "FACT VALUE"
+    void set(const std::string& text) {
+        const std::size_t space = std::min(text.find(' '), text.size());
+        const std::string fact = text.substr(0, space);
+        is(fact) ? void() : void(unasked_.insert(fact));
+        facts_[fact] = space == text.size() ? "" : text.substr(space + 1);
     }
-    void clear(const std::string& fact) {
-        if (facts_.erase(fact) == 0) {
-            throw std::invalid_argument("it is not " + fact);
-        }
-    }
-    [[nodiscard]] bool is(const std::string& fact) const { return facts_.contains(fact); }
+    void clear(const std::string& fact) { facts_.erase(fact); }
+    [[nodiscard]] bool is(const std::string& fact) const { return unasked_.erase(fact), facts_.contains(fact); }
     [[nodiscard]] std::string text(const std::string& fact) const { return is(fact) ? facts_.at(fact) : ""; }
     [[nodiscard]] int number(const std::string& fact, int otherwise) const {
         return is(fact) ? std::stoi(facts_.at(fact)) : otherwise;
     }
+    /// A fact that nothing has asked for, as one that is misspelled.
+    [[nodiscard]] std::string unasked() const { return unasked_.empty() ? "" : *unasked_.begin(); }
     void say(const std::string& what) { told_ += (told_.empty() ? "" : ", ") + what; }
     /// What they were told since the last call.
     [[nodiscard]] std::string take_told() { return std::exchange(told_, {}); }
+    void at_renewal(std::function<void()> what) { renewal_ = std::move(what); }
+    void renew() const { renewal_ ? renewal_() : void(); }
     [[nodiscard]] std::unique_ptr<ProgramOutputs> outputs();
 
     VirtualClock clock;
-    std::function<void()> renewal = [] {
-    };
 
 private:
     std::map<std::string, std::string> facts_;
+    mutable std::set<std::string> unasked_;
     std::string told_;
+    std::function<void()> renewal_;
 };
 
 /// A part of the world.
@@ -81,11 +77,7 @@ public:
     void set_ready(const RunOptions& options) override { options_ = options; }
     [[nodiscard]] bool has_feedback() const noexcept override { return !world_->is("blind"); }
     [[nodiscard]] Stop stopped_by() override {
-        static const std::map<std::string, StopCause> causes{{"", StopCause::none},
-                                                             {"drive", StopCause::drive_fault},
-                                                             {"limit", StopCause::limit_switch},
-                                                             {"e-stop", StopCause::emergency_stop}};
-        return {causes.at(world_->text("cause")), "it says so"};
+        return {static_cast<StopCause>(world_->number("cause", 0)), "it says so"};
     }
     [[nodiscard]] SwitchFacts switch_facts() const override {
         return {.homes = static_cast<std::uint32_t>(world_->number("homes", 7)), .no_home = {}};
@@ -98,8 +90,9 @@ public:
     }
     [[nodiscard]] std::vector<AxisPlace> places() const override {
         throw_where("blows");
-        return moved_ ? places_but(0) : world_->is("unsure") ? places_but(world_->number("unsure", 0))
-                                                             : std::vector<AxisPlace>{};
+        return moved_                 ? places_but(0)
+               : world_->is("unsure") ? places_but(world_->number("unsure", 0))
+                                      : std::vector<AxisPlace>{};
     }
     [[nodiscard]] std::vector<AxisPlace> standing() override { return places_but(world_->number("unsure", 0)); }
     [[nodiscard]] std::string where() const override { return "; there"; }
@@ -110,16 +103,14 @@ public:
         return {world_->text("absent")};
     }
     [[nodiscard]] hal::PortFailure prepare(const FeedSegment& first) override {
-        world_->say("prepare at " + x_of(first.start) + (options_.home ? fmt::format(" homing {}", options_.home_axes) : "") +
-                    (options_.reset ? " resetting" : ""));
-        if (world_->is("fault") && options_.reset) {
-            world_->clear("fault");
-        }
+        const std::string homes = options_.home ? fmt::format(" homing {}", options_.home_axes) : "";
+        world_->say("prepare at " + x_of(first.start) + homes + (options_.reset ? " resetting" : ""));
+        options_.reset ? world_->clear("fault") : void();
         while (world_->is(options_.home ? "searching" : "preparing") && !LiveMachine::gives_up()) {
             world_->clock.sleep_us(us_per_ms);
         }
         if (LiveMachine::gives_up()) {
-            world_->set("unsure", "7");
+            world_->set("unsure 7");
             moved_ = false;
             return {"interrupted"};
         }
@@ -130,7 +121,7 @@ public:
     }
     [[nodiscard]] hal::PortFailure renew(const FeedSegment& first) override {
         world_->say("renew at " + x_of(first.start));
-        world_->renewal();
+        world_->renew();
         phase_ = hal::PortPhase::running;
         complete_ = false;
         return {world_->text("unready")};
@@ -139,9 +130,7 @@ public:
         return phase_ == hal::PortPhase::running && !world_->is("fault") && !world_->is("full") ? 1 : 0;
     }
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override {
-        if (!world_->is("mute")) {
-            world_->say(x_of(segment.start) + " to " + x_of(segment.end));
-        }
+        world_->is("mute") ? void() : world_->say(x_of(segment.start) + " to " + x_of(segment.end));
         waiting_.push_back(segment);
         return true;
     }
@@ -155,9 +144,7 @@ public:
             mm_ = mm(waiting_.front().end);
             ++executed_;
         }
-        if (world_->is("executes")) {
-            world_->set("executes", std::to_string(left));
-        }
+        world_->is("executes") ? world_->set("executes " + std::to_string(left)) : void();
         const bool done = complete_ && waiting_.empty() && phase_ == hal::PortPhase::running;
         return {world_->is("fault") ? hal::PortPhase::fault : done ? hal::PortPhase::idle : phase_, executed_};
     }
@@ -207,11 +194,7 @@ class TalkingSpindle final : public RunSpindle, Talking {
 public:
     explicit TalkingSpindle(TalkingWorld& world) : Talking(world) {}
     void order(int direction, double rpm) override { world_->say(fmt::format("spindle {} {:g}", direction, rpm)); }
-    void end() override {
-        if (!std::exchange(ended_, true)) {
-            world_->say("spindle ends");
-        }
-    }
+    void end() override { std::exchange(ended_, true) ? void() : world_->say("spindle ends"); }
     [[nodiscard]] bool reached() const override { return !ended_ && !world_->is("slow") && !world_->is("silent"); }
     [[nodiscard]] bool stands() const override { return !world_->is("turning"); }
     [[nodiscard]] std::string trouble() const override { return world_->text("silent"); }
@@ -227,11 +210,7 @@ public:
     void act(EventKind kind, std::int32_t number) override {
         world_->say(fmt::format("{} {}", action_name(kind), number));
     }
-    void end() noexcept override {
-        if (!std::exchange(ended_, true)) {
-            world_->say("switches end");
-        }
-    }
+    void end() noexcept override { std::exchange(ended_, true) ? void() : world_->say("switches end"); }
     [[nodiscard]] std::string trouble() const override { return world_->text("severed"); }
     [[nodiscard]] std::string unconfirmed() const override { return world_->is("hangs") ? "output 3" : ""; }
 
@@ -263,19 +242,14 @@ inline std::unique_ptr<ProgramOutputs> TalkingWorld::outputs() {
     if (is("unreachable")) {
         throw TargetError(text("unreachable"));
     }
+    ProgramOutputs::Switches switches{std::make_shared<TalkingSwitches>(*this)};
+    ProgramOutputs::Inputs inputs{std::make_shared<TalkingInputs>(*this)};
     const auto has = [this](const char* part) {
         return text("outputs").find(part) != std::string::npos;
     };
-    ProgramOutputs::Switches switches;
-    ProgramOutputs::Inputs inputs;
-    if (has("switches")) {
-        switches.push_back(std::make_shared<TalkingSwitches>(*this));
-    }
-    if (has("inputs")) {
-        inputs.push_back(std::make_shared<TalkingInputs>(*this));
-    }
     return std::make_unique<ProgramOutputs>(has("spindle") ? std::make_unique<TalkingSpindle>(*this) : nullptr,
-                                            std::move(switches), std::move(inputs), clock);
+                                            has("switches") ? switches : ProgramOutputs::Switches{},
+                                            has("inputs") ? inputs : ProgramOutputs::Inputs{}, clock);
 }
 
 inline MachineDescription talking_machine() {
