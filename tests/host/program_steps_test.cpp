@@ -10,11 +10,7 @@ using namespace splinefeed_test;
 namespace {
 
 struct Bench {
-    Bench() {
-        world.set("mute");
-        world.set("outputs spindle switches inputs");
-        static_cast<void>(told());
-    }
+    Bench() { static_cast<void>(told()); }
 
     /// An event behind the move of a row that ends at x.
     void add(EventKind kind, std::uint32_t row, double x_mm, bool stops) {
@@ -52,7 +48,7 @@ struct Bench {
     }
 
     PlanFigures figures = plan_figures(ScalarKind::float64, default_machine());
-    TalkingWorld world;
+    TalkingWorld world{"mute", "outputs spindle switches inputs"};
     SignalWatch signals{{}};
     MachineDescription machine = talking_machine();
     TalkingTarget target{world};

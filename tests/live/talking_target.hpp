@@ -7,6 +7,7 @@
 
 #include "splinefeed/base/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
@@ -22,6 +23,9 @@ using namespace splinefeed::host;
 /// What is true of a target and its outputs, and what they were told. One virtual thread runs at a time: no locks.
 class TalkingWorld {
 public:
+    TalkingWorld(std::initializer_list<const char*> facts = {}) {
+        std::ranges::for_each(facts, [this](const char* fact) { set(fact); });
+    }
     /// "FACT VALUE"
     void set(const std::string& text) {
         const std::size_t space = std::min(text.find(' '), text.size());
