@@ -32,7 +32,7 @@ LiveMachine::LiveMachine(RunTarget& target, const MachineDescription& machine, c
                          MakeOutputs outputs)
     : target_(&target), machine_(&machine), settings_(settings), make_outputs_(std::move(outputs)),
       outputs_(make_outputs_().release()), reads_inputs_(outputs_ != nullptr && outputs_->reads_inputs()) {
-    feed_.emplace(target, outputs_.get(), settings.record, TargetFeed::Patience{}, *settings.clock);
+    feed_.emplace(target, outputs_.get(), settings.record, *settings.clock);
     gives_up_.store(false);
     known_.mm = settings.told_mm;
     unlocked_axes_ = all_axes() & (target.has_feedback() ? UINT32_MAX : ~target.switch_facts().homes);

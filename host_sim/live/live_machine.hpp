@@ -56,8 +56,8 @@ public:
         hal::Clock* clock = &hal::system_clock(); ///< that of its thread
     };
 
-    /// The thread of a run begins with the first segment. That of a machine that is served begins at once, behind a look
-    /// at where it stands: a drive in fault is an alarm.
+    /// The thread of a run begins with the first segment. That of a machine that is served begins at once, behind a
+    /// look at where it stands: a drive in fault is an alarm.
     /// @param target, machine  must outlive it
     /// @param outputs  makes them, or null where there are none; called again behind a reset that ended them
     LiveMachine(RunTarget& target, const MachineDescription& machine, const Settings& settings, MakeOutputs outputs);
@@ -79,8 +79,8 @@ public:
     [[nodiscard]] bool has_room() const noexcept { return !is_real() || feed_->room(); }
     /// It has so little motion left that the plan must not wait for more.
     [[nodiscard]] bool is_dry() const;
-    /// Passes a segment on, as soon as there is room for it. The first one of a run defines where the axes stand. false:
-    /// the machine has ended. Throws OutputError if the state file cannot be written; nothing has moved then.
+    /// Passes a segment on, as soon as there is room for it. The first one of a run defines where the axes stand.
+    /// false: the machine has ended. Throws OutputError if the state file cannot be written; nothing has moved then.
     /// @param line  of the program, that the segment comes from; 0: unknown
     /// @param moves  of the program up to this one, or waypoints; for Reached
     bool submit(const FeedSegment& segment, std::uint64_t line, std::uint64_t moves);
@@ -91,8 +91,8 @@ public:
     /// The plan of a run is given up: all axes stop as after the first signal, and it ends.
     /// @param why  for the message
     void stop(const std::string& why = {});
-    /// The end, if it has not come: of a run behind rest(). Returns why it ended before everything was executed, or what
-    /// was not confirmed; empty: neither.
+    /// The end, if it has not come: of a run behind rest(). Returns why it ended before everything was executed, or
+    /// what was not confirmed; empty: neither.
     const std::string& finish();
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
     /// Whether it has begun and is not over.
@@ -208,6 +208,7 @@ private:
     void end_motion(const MotionEnd& end);
     void finish_motion();
     void drop_motion();
+    [[nodiscard]] Alarm trouble_alarm() const;
     void fail(const std::string& sentence, Alarm alarm = Alarm::drive_fault);
     void fail_by(const std::string& sentence);
     bool look_where(bool at_once);

@@ -122,11 +122,13 @@ void LiveMachine::recover(bool resets) {
     if (outputs_ == nullptr || feed_->outputs_ended() || !feed_->trouble().empty()) {
         renew_outputs();
     }
-    if (phase_ != Phase::closed && phase_ != Phase::failed) {
+    if (phase_ == Phase::ready) {
         return;
     }
     options_.reset = resets;
-    reopen();
+    if (phase_ != Phase::open) { // as it may be already, behind drives that were off
+        reopen();
+    }
     // Drives that were on and cannot be asked still are; those that an e-stop has switched off wait for a motion.
     if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !target_->has_feedback()) {
         return;

@@ -49,7 +49,7 @@ void LiveMachine::work() noexcept {
         try {
             step();
         } catch (const std::exception& error) {
-            if (!serves()) {
+            if (!serves() || phase_ == Phase::ready) {
                 target_->port().quick_stop();
             }
             fail(error.what());
@@ -134,7 +134,7 @@ void LiveMachine::step() {
     }
     look_at_switches();
     if (phase_ != Phase::failed && !feed_->trouble().empty()) {
-        fail(feed_->trouble(), Alarm::spindle_speed);
+        fail(feed_->trouble(), trouble_alarm());
     } else if (feed_->waits() && (phase_ == Phase::failed || orders.stops > 0)) {
         drop_motion();
     } else if (feed_->waits() && moves) {
@@ -149,7 +149,7 @@ void LiveMachine::announce() {
     }
     const RunTarget::Stop stop = target_->stopped_by();
     const bool troubled = !feed_->trouble().empty() && !target_->halts();
-    const Alarm alarm = troubled ? Alarm::spindle_speed : alarm_of(stop.cause);
+    const Alarm alarm = troubled ? trouble_alarm() : alarm_of(stop.cause);
     const std::string& why = troubled ? feed_->trouble() : stop.why;
     bool moves = false;
     {
@@ -210,7 +210,7 @@ void LiveMachine::end_motion(const MotionEnd& end) {
         feed_->drop();
     } // else what waits is the next motion
     if (!feed_->trouble().empty()) {
-        fail(feed_->trouble(), Alarm::spindle_speed);
+        fail(feed_->trouble(), trouble_alarm());
         return;
     }
     if (end.kind == MotionEnd::Kind::fault || target_->stopped_by().cause != StopCause::none) {
@@ -243,6 +243,11 @@ void LiveMachine::end_motion(const MotionEnd& end) {
     finish_motion();
 }
 
+// That of the outputs, or what the target has thrown.
+Alarm LiveMachine::trouble_alarm() const {
+    return outputs_ != nullptr && !outputs_->trouble().empty() ? Alarm::spindle_speed : Alarm::drive_fault;
+}
+
 // As the target says what has stopped it; else its drives have.
 void LiveMachine::fail_by(const std::string& sentence) {
     const RunTarget::Stop stop = target_->stopped_by();
@@ -259,10 +264,12 @@ void LiveMachine::fail(const std::string& sentence, Alarm alarm) {
         ends_ = true;
         return;
     }
-    if (phase_ == Phase::ready || !target_->has_feedback()) {
-        static_cast<void>(look_where(true));
-    }
+    const bool looks = phase_ == Phase::ready || !target_->has_feedback();
     phase_ = Phase::failed;
+    try {
+        static_cast<void>(looks && look_where(true));
+    } catch (const std::exception&) { // it may be why
+    }
     {
         const std::lock_guard lock(mutex_);
         known_.alarm = alarm;
@@ -328,7 +335,8 @@ void LiveMachine::note_silence(const std::vector<RunTarget::AxisPlace>& places, 
     }
     heard_us_ = silent.empty() ? now_us : heard_us_;
     const bool says = now_us - heard_us_ > silence_us;
-    known_.note = says ? "No answer from " + silent + ": the axes are held; look at its power and cable" : std::string();
+    known_.note =
+        says ? "No answer from " + silent + ": the axes are held; look at its power and cable" : std::string();
 }
 
 // A spindle that was ended comes to a standstill by its own ramp, and modules confirm what they were told; a further
@@ -397,10 +405,10 @@ void LiveMachine::end() noexcept {
             step([&] { settings_.state->ends(places); });
         }
         settings_.signals->at_once(
-            [this, sentence = (ending_.empty()
-                                   ? std::string("interrupted while outputs were written; the motion was complete")
-                                   : ending_) +
-                              where_] {
+            [this, sentence =
+                       (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete")
+                                        : ending_) +
+                       where_] {
                 target_->port().close();
                 abandon(sentence, not_finished);
             });

@@ -164,11 +164,11 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
 // A stop that does not end.
 std::optional<MotionEnd> TargetFeed::insist() {
     const std::uint64_t now_us = clock_->now_us();
-    if (obeyed_ == 1 && now_us > obeyed_us_ + patience_.halt_us) {
+    if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
         obeyed_ = 2;
         end_outputs();
         port_->quick_stop();
-    } else if (obeyed_ == 2 && now_us > obeyed_us_ + patience_.give_up_us) {
+    } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
         return MotionEnd{MotionEnd::Kind::fault, "interrupted, but not every drive has confirmed that it stands"};
     }
     return std::nullopt;
@@ -186,7 +186,6 @@ std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
         }
     } catch (const std::exception& error) {
         set_trouble(error.what());
-        ask(1);
         state = port_->poll();
     }
     executed_.store(began_at_ + (state.executed - done_before_));

@@ -35,19 +35,10 @@ class TargetFeed {
 public:
     /// How far the planner may be ahead of the port. [us] More would only delay a hold.
     static constexpr std::uint64_t hand_over_us = 10'000;
-    /// How long a stop may take. [us]
-    struct Patience {
-        std::uint64_t halt_us = 10'000'000;    ///< then a hold becomes a quick stop,
-        std::uint64_t give_up_us = 15'000'000; ///< and then nobody waits for the port any more
-    };
 
-    /// Target, outputs and record must outlive it. @param outputs, record  null: there are none
-    explicit TargetFeed(RunTarget& target, ProgramOutputs* outputs = nullptr, TargetRecord* record = nullptr)
-        : TargetFeed(target, outputs, record, Patience{}) {}
-    TargetFeed(RunTarget& target, ProgramOutputs* outputs, TargetRecord* record, const Patience& patience,
-               hal::Clock& clock = hal::system_clock())
-        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record), patience_(patience),
-          clock_(&clock) {}
+    /// All must outlive it. @param outputs, record  null: there are none
+    TargetFeed(RunTarget& target, ProgramOutputs* outputs, TargetRecord* record, hal::Clock& clock)
+        : target_(&target), port_(&target.port()), outputs_(outputs), record_(record), clock_(&clock) {}
     TargetFeed(const TargetFeed&) = delete;
     TargetFeed& operator=(const TargetFeed&) = delete;
 
@@ -108,6 +99,9 @@ public:
 
 private:
     static constexpr std::size_t capacity = 512; // hand_over_us of the shortest segments
+    // How long a stop may take: then a hold becomes a quick stop, and then nobody waits for the port any more.
+    static constexpr std::uint64_t halt_us = 10'000'000;
+    static constexpr std::uint64_t give_up_us = 15'000'000;
 
     void ask(int requests);
     void hand_over();
@@ -118,7 +112,6 @@ private:
     hal::MotionPort* port_; // of the target
     ProgramOutputs* outputs_;
     TargetRecord* record_;
-    Patience patience_;
     hal::Clock* clock_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};

@@ -58,7 +58,7 @@ struct RunOptions {
     bool serves = false; ///< many motions, as people ask for them: behind homing the axes stay where it ends
 };
 
-/// The interface that Supervision uses. From the first segment on, only its thread calls the functions that are not
+/// The interface that LiveMachine uses. From the first segment on, only its thread calls the functions that are not
 /// const.
 class RunTarget {
 public:

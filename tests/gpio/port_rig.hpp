@@ -92,7 +92,7 @@ struct TargetRig {
     std::unique_ptr<splinefeed::host::GpioTarget> target;
 };
 
-/// A straight run on a target from zero, as Supervision and Motion do it, a millisecond at a time.
+/// A straight run on a target from zero, as LiveMachine and Motion do it, a millisecond at a time.
 class TargetRun {
 public:
     TargetRun(TargetRig& rig, const splinefeed::PerAxis<double>& to)

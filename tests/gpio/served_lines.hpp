@@ -5,11 +5,11 @@
 
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/live/live_machine.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
 #include "host_sim/ports/gpio/line_outputs.hpp"
 #include "host_sim/serve/serve_settings.hpp"
 #include "host_sim/serve/served_motion.hpp"
-#include "host_sim/serve/served_target.hpp"
 #include "recorded_chips.hpp"
 #include "simulated_lines.hpp"
 #include "splinefeed/controller/controller.hpp"
@@ -70,16 +70,16 @@ public:
         lines->changed = [this] {
             carriage();
         };
-        auto target = std::make_unique<splinefeed::host::GpioTarget>(
+        target = std::make_unique<splinefeed::host::GpioTarget>(
             std::move(map), std::move(own_lines), machine,
-            splinefeed::host::RunOptions{.interrupted = &splinefeed::host::ServedTarget::gives_up, .serves = true},
+            splinefeed::host::RunOptions{.interrupted = &splinefeed::host::LiveMachine::gives_up, .serves = true},
             &clock);
         switches_ = target->switch_facts();
         settings = splinefeed::host::serve_settings(run_machine_, switches_);
         motion_ = std::make_unique<splinefeed::host::ServedMotion>(machine, settings);
-        served = std::make_unique<splinefeed::host::ServedTarget>(
-            std::move(target), machine,
-            splinefeed::host::ServedTarget::Settings{.segment_ticks = 8000, .told = told, .clock = &clock},
+        served = std::make_unique<splinefeed::host::LiveMachine>(
+            *target, machine,
+            splinefeed::host::LiveMachine::Settings{.segment_ticks = 8000, .told = told, .clock = &clock},
             [this] { return outputs(); });
         controller = std::make_unique<splinefeed::Controller>(
             settings, motion_->motion(), *served, splinefeed::Controller::Memory{line_memory_, answer_memory_});
@@ -89,7 +89,6 @@ public:
     /// A millisecond, as the server has it.
     void tick() {
         clock.sleep_us(1000);
-        served->advance(splinefeed::host::ServedMachine::Time(std::chrono::nanoseconds(clock.now_ns())));
         controller->execute(now_ms());
         splinefeed::FeedSegment segment;
         bool more = true;
@@ -136,7 +135,6 @@ public:
     VirtualClock clock;
     SimulatedLines* lines = nullptr;
     splinefeed::ControllerSettings settings;
-    std::unique_ptr<splinefeed::host::ServedTarget> served;
     std::unique_ptr<splinefeed::Controller> controller;
     std::string text; // what it has said
     /// Where the axes are in truth when it is switched on, and where their switches act: below, of z above. [mm]
@@ -160,6 +158,8 @@ private:
 
 public:
     RecordedChips chips;
+    std::unique_ptr<splinefeed::host::GpioTarget> target;
+    std::unique_ptr<splinefeed::host::LiveMachine> served; // goes before what it uses
 
 private:
     [[nodiscard]] std::unique_ptr<splinefeed::host::ProgramOutputs> outputs() {
