@@ -8,6 +8,7 @@
 #include "support/places.hpp"
 
 #include <csignal>
+#include <filesystem>
 #include <fnmatch.h>
 #include <thread>
 #include <unistd.h>
@@ -173,11 +174,15 @@ private:
     /// Of a file that says 1 2 3, or that cannot be: what the fact says.
     StateKeeper* keeper() {
         const MachineState begins{.offsets = {}, .position_mm = {1.0, 2.0, 3.0}};
-        file_ = world_.text("state").empty() ? folder_.file("s.json") : world_.text("state");
-        if (world_.text("state").empty()) {
-            write_state_file(file_, axes_, begins);
+        const bool lost = !world_.text("state").empty(); // its folder is
+        std::filesystem::create_directory(folder_.file("kept"));
+        file_ = folder_.file("kept/s.json");
+        write_state_file(file_, {axes_}, begins);
+        state_file_.emplace(file_, StateOwner{axes_});
+        if (lost) {
+            std::filesystem::remove_all(folder_.file("kept"));
         }
-        return &state_.emplace(file_, axes_, begins);
+        return &state_.emplace(*state_file_, begins);
     }
     void submit(double to, std::int64_t velocity = 0) {
         FeedSegment segment = segment_between(at_mm_, to);
@@ -270,6 +275,7 @@ private:
     const std::vector<std::string> axes_{"x", "y", "z"};
     TemporaryFolder folder_;
     std::string file_;
+    std::optional<StateFile> state_file_;
     std::optional<StateKeeper> state_;
     std::unique_ptr<LiveMachine> machine_;
     double at_mm_ = 0.0;
