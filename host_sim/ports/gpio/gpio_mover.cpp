@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/ports/gpio/gpio_mover.hpp"
 
-#include "host_sim/planning/straight_motion.hpp"
+#include "splinefeed/hal/motion/straight_motion.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -105,7 +105,7 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
     if (!moved.trouble.empty()) {
         return moved;
     }
-    StraightMotion motion(*machine_, from, to_mm, feed_mm_s);
+    hal::StraightMotion motion(machine_->settings, from, to_mm, feed_mm_s);
     port_->close();
     port_->reset();
     static_cast<void>(port_->start());
