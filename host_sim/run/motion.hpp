@@ -112,8 +112,8 @@ private:
     const PlanFigures* figures_;
     PathInput* input_;
     Outputs* outputs_;
-    StateKeeper* state_;                // null: nothing is kept
-    const RunStart* start_;             // null: there is nothing to move to
+    StateKeeper* state_;                     // null: nothing is kept
+    const RunStart* start_;                  // null: there is nothing to move to
     std::optional<hal::StraightMotion> way_; // to where the path begins, while the machine is on it
     ProgramReport* report_;
     MotionRecord* record_;

@@ -75,7 +75,7 @@ int run_serve(const ServeArguments& arguments) {
     if (arguments.target != "sim") {
         std::unique_ptr<RunTarget> made =
             target_kind(arguments.target)
-                .make(arguments.target, machine.machine, {.interrupted = &ServedTarget::gives_up, .serves = true});
+                .make(arguments.target, machine.machine, {.interrupted = &ServedTarget::gives_up});
         switches = made->switch_facts();
         tell_note(made->has_feedback() ? std::string() : note_unknown(begins, machine.machine, told.told_mm));
         tool = make_target(std::move(made), arguments.target, machine, told);

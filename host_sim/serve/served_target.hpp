@@ -97,7 +97,7 @@ private:
     [[nodiscard]] Orders take_orders();
     void find_place();
     void begin_first();
-    [[nodiscard]] std::string make_ready(const FeedSegment& first);
+    [[nodiscard]] hal::PortFailure make_ready(const FeedSegment& first);
     void end_motion(const MotionEnd& end);
     void drop_motion();
     void finish_motion();
@@ -143,7 +143,7 @@ private:
     bool busy_ = false;           // an order is carried out
     // Of the thread:
     Phase phase_ = Phase::closed;
-    RunOptions options_;
+    RunOptions options_{.stays = true};
     std::uint64_t looked_us_ = 0; // where it stands
     std::string unconfirmed_;     // at its end
     std::atomic<bool> leaves_{false};

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "gpio_bench.hpp"
-#include "splinefeed/hal/motion/straight_motion.hpp"
 #include "host_sim/ports/gpio/gpio_settings.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
+#include "splinefeed/hal/motion/straight_motion.hpp"
 #include "support/virtual_clock.hpp"
 
 #include <cmath>

@@ -12,9 +12,8 @@ constexpr std::size_t window_cells = 256; // a line has few
 StraightMotion::StraightMotion(const MachineSettings& machine, const PerAxis<double>& from, const PerAxis<double>& to,
                                double feed_mm_s)
     : limits_(MotionLimits<double>::make(machine).value()), line_({.axes = machine.axes}), window_(window_cells) {
-    Planner<double>& planner = limits_.jerk_limited
-                                   ? static_cast<Planner<double>&>(jerk_.emplace(window_).planner)
-                                   : acceleration_.emplace(window_);
+    Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_.emplace(window_).planner)
+                                                    : acceleration_.emplace(window_);
     trajectory_ = *Trajectory<double>::make(line_, limits_, planner);
     const auto waypoint = [&](const PerAxis<double>& place) {
         Waypoint<double> point;
