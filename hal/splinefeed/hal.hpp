@@ -11,6 +11,7 @@
 #endif
 
 #ifdef SPLINEFEED_HAS_GPIO // splinefeed::hal_gpio
+#include "splinefeed/hal/gpio/gpio_port.hpp"
 #include "splinefeed/hal/gpio/input_lines.hpp"
 #include "splinefeed/hal/gpio/input_watch.hpp"
 #include "splinefeed/hal/gpio/output_lines.hpp"

@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/config/drive_address.hpp"
+#include "splinefeed/hal/gpio/chip_lookup.hpp"
 
 #include <array>
 #include <string_view>
@@ -14,6 +15,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::string_view example = "gpio:///dev/gpiochip0?map=lines.toml";
+constexpr std::string_view labelled = "gpio://label=NAME?map=lines.toml";
 
 } // namespace
 
@@ -29,9 +31,9 @@ GpioAddress parse_gpio_address(const std::string& text) {
     const AddressText parts = split_address(text);
     GpioAddress address;
     address.chip = parts.place;
-    if (address.chip.size() < 2 || address.chip.front() != '/') {
-        throw AddressError("the chip is {}; it must be its whole path, with three slashes in all: {}",
-                           in_quotes(address.chip), example);
+    if (!hal::gpio::names_chip(address.chip)) {
+        throw AddressError("the chip is {}; it must be its whole path, with three slashes in all: {}; or its label: {}",
+                           in_quotes(address.chip), example, labelled);
     }
     for (const AddressText::Setting& setting : parts.settings) {
         if (setting.key != keys.front()) {

@@ -2,6 +2,7 @@
 #include "host_sim/config/gpio_map_lines.hpp"
 
 #include "host_sim/config/line_keys.hpp"
+#include "splinefeed/hal/gpio/chip_lookup.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +12,11 @@ using namespace hal::gpio;
 
 std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& node) {
     std::string path = check.text(node, "chip");
-    if (path.size() < 2 || path.front() != '/') {
-        check.fail(node, "chip is {}; it must be its whole path, like \"/dev/gpiochip1\"", in_quotes(path));
+    if (!names_chip(path)) {
+        check.fail(node,
+                   "chip is {}; it must be its whole path, like \"/dev/gpiochip1\", or its label, like "
+                   "\"label=pinctrl-bcm2711\"",
+                   in_quotes(path));
     }
     return path;
 }

@@ -30,7 +30,7 @@ public:
     /// Inputs may share a line if all name it in the same way and have the same bias.
     hal::gpio::LineBit input(const toml::node& node, std::string_view key, hal::gpio::Bias bias);
 
-    /// The whole path of a chip.
+    /// The whole path of a chip, or its label.
     [[nodiscard]] static std::string chip_path(const TomlChecker& check, const toml::node& node);
 
 private:

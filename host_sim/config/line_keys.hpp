@@ -16,7 +16,8 @@ constexpr FileKey of_a_line_name(FileKey row) {
     return row;
 }
 inline constexpr FileKey line_keys[] = {
-    form_key("chip", R"({"type": "string", "pattern": "^/."})", "The whole path of its chip, like /dev/gpiochip1."),
+    form_key("chip", R"({"type": "string", "pattern": "^(/|label=)."})",
+             "The whole path of its chip, like /dev/gpiochip1, or label= and its label."),
     whole_key("offset", 0, 65535, "Its number in the chip."), // the largest chips have about a thousand
     of_a_line_name(text_key("name", "Its name, as gpioinfo shows it.")),
 };

@@ -221,7 +221,7 @@ private:
     void find_place();
     void begin_first();
     void begin_run();
-    [[nodiscard]] std::string make_ready(const FeedSegment& first);
+    [[nodiscard]] hal::PortFailure make_ready(const FeedSegment& first);
     [[nodiscard]] FeedSegment standing() const;
     [[nodiscard]] std::uint32_t known_axes() const;
     void close();
@@ -262,7 +262,7 @@ private:
     std::vector<RunTarget::AxisPlace> kept_places_; // that the state has
     // Of the thread, and after over_ of any thread:
     Phase phase_ = Phase::closed;
-    RunOptions options_;
+    RunOptions options_{.stays = true};
     std::uint64_t looked_us_ = 0;    // where it stands
     std::uint64_t heard_us_ = 0;     // of all drives
     std::uint64_t seen_ = 0;         // segments that were executed,

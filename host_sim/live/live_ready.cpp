@@ -47,12 +47,12 @@ void LiveMachine::begin_first() {
             return;
         }
     }
-    const std::string why = make_ready(first);
-    if (!why.empty() && gives_up()) {
+    const hal::PortFailure failure = make_ready(first);
+    if (failure && gives_up()) {
         reopen();
         drop_motion();
-    } else if (!why.empty()) {
-        fail_by(why);
+    } else if (failure) {
+        fail_by(failure.what);
     }
 }
 
@@ -72,11 +72,12 @@ void LiveMachine::begin_run() {
 }
 
 // Returns why it is not.
-std::string LiveMachine::make_ready(const FeedSegment& first) {
+hal::PortFailure LiveMachine::make_ready(const FeedSegment& first) {
     target_->set_ready(options_);
     hal::MotionPort& port = target_->port();
-    if (const hal::PortFailure failure = port.prepare(first)) {
-        return target_->sentence(failure);
+    if (hal::PortFailure failure = port.prepare(first)) {
+        failure.what = target_->sentence(failure);
+        return failure;
     }
     options_.reset = options_.home = false;
     phase_ = Phase::ready;
@@ -133,8 +134,8 @@ void LiveMachine::recover(bool resets) {
     if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !target_->has_feedback()) {
         return;
     }
-    if (const std::string why = make_ready(standing()); !why.empty()) {
-        fail_by(why);
+    if (const hal::PortFailure failure = make_ready(standing())) {
+        fail_by(failure.what);
     }
 }
 
@@ -173,7 +174,7 @@ void LiveMachine::find_references(std::uint32_t axes) {
     if (phase_ == Phase::ready || phase_ == Phase::closed) {
         reopen();
     }
-    std::string why;
+    hal::PortFailure failure;
     FeedSegment found = standing();
     if (phase_ == Phase::open && !gives_up()) {
         options_.home = true;
@@ -187,7 +188,7 @@ void LiveMachine::find_references(std::uint32_t axes) {
             found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
         }
         found.end = found.start;
-        why = make_ready(found);
+        failure = make_ready(found);
         options_.home = false;
         options_.placed = UINT32_MAX;
     }
@@ -203,8 +204,10 @@ void LiveMachine::find_references(std::uint32_t axes) {
     }
     const std::lock_guard lock(mutex_);
     known_.axes = homed ? known | search : known_.axes | (known & ~search);
-    known_.homing = homed ? HomingPhase::done : HomingPhase::failed;
-    known_.sentence = known_.alarm == Alarm::none ? why : known_.sentence; // the controller says it
+    known_.homing = homed                                         ? HomingPhase::done
+                    : failure.remedy == hal::Remedy::clear_switch ? HomingPhase::not_cleared
+                                                                  : HomingPhase::failed;
+    known_.sentence = known_.alarm == Alarm::none ? failure.what : known_.sentence; // the controller says it
 }
 
 } // namespace splinefeed::host

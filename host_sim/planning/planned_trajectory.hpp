@@ -5,7 +5,7 @@
 #include "host_sim/planning/planned_path.hpp"
 
 #include "splinefeed/acceleration_planner.hpp"
-#include "splinefeed/jerk_planner.hpp"
+#include "splinefeed/hal/motion/jerk_memory.hpp"
 #include "splinefeed/trajectory.hpp"
 
 #include <algorithm>
@@ -13,29 +13,6 @@
 #include <vector>
 
 namespace splinefeed::host {
-
-/// A JerkPlanner and its memory. It looks a quarter as far ahead as its window: what it plans far ahead is planned
-/// again later.
-template <Scalar S, Floating R>
-struct JerkMemory {
-    explicit JerkMemory(std::span<PlannedCell<S>> window)
-        : cells(cells_of(window.size())), nodes(cells.size() + 1), scratch(nodes.size()),
-          planner(window, {cells, nodes, scratch}) {}
-
-    [[nodiscard]] static std::size_t cells_of(std::size_t window) noexcept {
-        const std::size_t ahead = std::max(window / 4, JerkPlan<S, double>::smallest_window);
-        return ahead + std::min(ahead / 3, JerkWindow<S, double>::most_spare); // a quarter is free
-    }
-
-    [[nodiscard]] std::size_t bytes() const noexcept {
-        return sizeof planner + cells.size() * sizeof cells[0] + nodes.size() * (sizeof nodes[0] + sizeof scratch[0]);
-    }
-
-    std::vector<Cell<S>> cells;
-    std::vector<JerkNode<R>> nodes;
-    std::vector<LegNode<R>> scratch;
-    JerkPlanner<S, R> planner;
-};
 
 template <Scalar S>
 class PlannedTrajectory {
@@ -85,8 +62,8 @@ private:
 
     std::vector<PlannedCell<S>> window_;
     std::optional<AccelerationPlanner<S>> acceleration_; // one of the three
-    std::optional<JerkMemory<JerkScalar, double>> in_double_;
-    std::optional<JerkMemory<JerkScalar, float>> in_float_;
+    std::optional<hal::JerkMemory<JerkScalar, double>> in_double_;
+    std::optional<hal::JerkMemory<JerkScalar, float>> in_float_;
     Trajectory<S> trajectory_;
 };
 

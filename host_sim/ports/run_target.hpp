@@ -55,7 +55,7 @@ struct RunOptions {
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
     bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;
-    bool serves = false; ///< many motions, as people ask for them: behind homing the axes stay where it ends
+    bool stays = false; ///< behind homing the axes stay where it ends; else they go where the motion begins
 };
 
 /// The interface that LiveMachine uses. From the first segment on, only its thread calls the functions that are not

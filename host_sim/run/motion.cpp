@@ -296,7 +296,7 @@ bool Motion::execute_first(FeedSegment& segment) {
 
 // A straight line at the machine's limits, before the path. False: it was held, or the run is over.
 bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
-    way_.emplace(*description_, from, to, description_->settings.max_feed_mm_s);
+    way_.emplace(description_->settings, from, to, description_->settings.max_feed_mm_s);
     if (asked_.record != nullptr) {
         asked_.record->approach(true);
     }

@@ -9,7 +9,6 @@
 #include "host_sim/output/progress.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_path.hpp"
-#include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/report/motion_record.hpp"
 #include "host_sim/run/kept_motion.hpp"
@@ -17,6 +16,7 @@
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/user_pause.hpp"
+#include "splinefeed/hal/motion/straight_motion.hpp"
 
 #include <chrono>
 #include <span>
@@ -109,7 +109,7 @@ private:
     const PlanFigures* figures_;
     PathInput* input_;
     Outputs* outputs_;
-    std::optional<StraightMotion> way_; // to where the path begins, while the machine is on it
+    std::optional<hal::StraightMotion> way_; // to where the path begins, while the machine is on it
     LiveMachine* live_;
     WaypointError error_;
     PathDeviation deviation_;

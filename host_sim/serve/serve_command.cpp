@@ -67,7 +67,7 @@ int run_serve(const ServeArguments& arguments) {
     LiveMachine::Settings live_settings = places_of(begins, machine.machine);
     const TargetKind& kind = target_kind(arguments.target);
     const std::unique_ptr<RunTarget, DeleteInTime> target(
-        kind.make(arguments.target, machine.machine, {.interrupted = &LiveMachine::gives_up, .serves = true}).release());
+        kind.make(arguments.target, machine.machine, {.interrupted = &LiveMachine::gives_up}).release());
     if (kind.is_real && !target->has_feedback()) {
         tell_note(note_unknown(begins, machine.machine, live_settings.told_mm));
     }

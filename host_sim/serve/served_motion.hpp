@@ -35,7 +35,7 @@ private:
     MotionLimits<Fixed> limits_;
     std::vector<PlannedCell<Fixed>> window_;
     std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two
-    std::optional<JerkMemory<Fixed, double>> jerk_;
+    std::optional<hal::JerkMemory<Fixed, double>> jerk_;
     SplinePoints<Fixed> points_;
     ScalarMotion<Fixed> motion_;
 };

@@ -55,7 +55,8 @@ private:
                 machine.quick_stop(); // by itself
             }
         } else if (what == "home") {
-            machine.home_found = value != 0.0;
+            machine.home_found = value == 1.0;
+            machine.home_clears = value != 2.0;
         } else if (what == "known") {
             machine.known = value != 0.0;
         } else if (what == "input") {

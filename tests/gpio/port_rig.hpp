@@ -3,9 +3,9 @@
 #pragma once
 
 #include "gpio_bench.hpp"
-#include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/ports/gpio/gpio_settings.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
+#include "splinefeed/hal/motion/straight_motion.hpp"
 #include "support/virtual_clock.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct PortRig {
         : map(splinefeed::host::parse_gpio_map(text, "m.toml", machine, "chip")) {}
     [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns() - began_ns) * 1e-6; }
     /// Hands segments over as long as there is room; the last one is not at rest where the motion goes on.
-    bool feed(splinefeed::host::StraightMotion& motion) {
+    bool feed(splinefeed::hal::StraightMotion& motion) {
         splinefeed::FeedSegment segment;
         while (port.room() > 0) {
             if (!motion.next(segment)) {
@@ -96,7 +96,7 @@ struct TargetRig {
 class TargetRun {
 public:
     TargetRun(TargetRig& rig, const splinefeed::PerAxis<double>& to)
-        : target(*rig.target), clock_(rig.clock), motion_(rig.machine, {0.0, 0.0}, to, 100.0) {
+        : target(*rig.target), clock_(rig.clock), motion_(rig.machine.settings, {0.0, 0.0}, to, 100.0) {
         REQUIRE(motion_.next(*next_));
         REQUIRE_FALSE(port.prepare(*next_));
     }
@@ -123,7 +123,7 @@ public:
 
 private:
     VirtualClock& clock_;
-    splinefeed::host::StraightMotion motion_;
+    splinefeed::hal::StraightMotion motion_;
     std::optional<splinefeed::FeedSegment> next_{std::in_place};
 };
 

@@ -125,3 +125,32 @@ TEST_CASE("an axis without a home is refused before anything moves, and $H homes
     CHECK(machine.known() == 5);
     CHECK(machine.counts()[1] == 0);
 }
+
+TEST_CASE("a switch that acts all the time moves its axis by a few pull-offs, and no way further", "[serve]") {
+    const double from_mm = GENERATE(1.0, 150.0, 290.0);
+    OperatedLines machine(served_map, 0);
+    machine.at_start_mm[0] = from_mm;
+    machine.place_switch(0, 1000.0); // its wire is broken
+    machine.wait(20);
+    machine.send("$HX\n");
+    REQUIRE(machine.says("ALARM:"));
+    CHECK(machine.text.find("ALARM:8\r") != std::string::npos);
+    CHECK(machine.text.find("the home of axis x (line 0) still acts 10 mm further; look at its wire and `active`") !=
+          std::string::npos);
+    machine.wait(500);
+    CHECK(machine.mm(0) - from_mm == Approx(10.0).margin(0.01));
+    machine.check_still();
+    CHECK_FALSE(machine.served->read().known);
+}
+
+TEST_CASE("a switch that breaks in the search is found to act behind the pull-off", "[serve]") {
+    OperatedLines machine(served_map, 0);
+    machine.at_start_mm[0] = 30.0;
+    machine.wait(20);
+    machine.send("$HX\n");
+    machine.wait(200);
+    machine.switch_mm[0] = 1000.0;
+    REQUIRE(machine.says("ALARM:"));
+    CHECK(machine.text.find("ALARM:8\r") != std::string::npos);
+    CHECK(machine.mm(0) < 32.0);
+}

@@ -57,13 +57,13 @@ public:
 
     /// @param told  axes whose place is known, by bits: they stand at 0
     /// @param machine_text  of the machine file; what programs switch is on chips that record
-    explicit ServedLines(const std::string& map_text = served_map, std::uint32_t told = 7,
+    explicit ServedLines(const std::string& lines_text = served_map, std::uint32_t told = 7,
                          const std::string& machine_text = served_machine())
         : run_machine_(splinefeed::host::parse_machine(machine_text, "machine.toml"), true),
           chips(run_machine_.machine.lines) {
         const splinefeed::host::MachineDescription& machine = run_machine_.machine;
         auto map = std::make_unique<splinefeed::hal::gpio::LineMap>(
-            splinefeed::host::parse_gpio_map(map_text, "lines.toml", machine, "chip"));
+            splinefeed::host::parse_gpio_map(lines_text, "lines.toml", machine, "chip"));
         map_ = map.get();
         auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
         lines = own_lines.get();
@@ -72,8 +72,7 @@ public:
         };
         target = std::make_unique<splinefeed::host::GpioTarget>(
             std::move(map), std::move(own_lines), machine,
-            splinefeed::host::RunOptions{.interrupted = &splinefeed::host::LiveMachine::gives_up, .serves = true},
-            &clock);
+            splinefeed::host::RunOptions{.interrupted = &splinefeed::host::LiveMachine::gives_up}, &clock);
         switches_ = target->switch_facts();
         settings = splinefeed::host::serve_settings(run_machine_, switches_);
         motion_ = std::make_unique<splinefeed::host::ServedMotion>(machine, settings);

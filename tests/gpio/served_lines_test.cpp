@@ -307,3 +307,34 @@ TEST_CASE("what a map lacks is refused with the file and its key", "[serve]") {
           "error:5\r\n[MSG:The machine has no probe]\r\nerror:20\r\n");
     CHECK(machine.settings.has_limits);
 }
+
+TEST_CASE("behind an e-stop, or a line that fails, the last steps are the place that is told", "[serve]") {
+    OperatedLines machine;
+    const bool fails = GENERATE(false, true);
+    machine.begin_move();
+    machine.wait(17); // beside the looks, which are 40 ms apart
+    if (fails) {
+        machine.lines->fail(true);
+    } else {
+        machine.press(ServedLines::e_stop, true);
+    }
+    REQUIRE(machine.says("ALARM:"));
+    machine.wait(100);
+    const PerAxis<Position> at = machine.served->read().position;
+    for (unsigned k = 0; k < 2; ++k) {
+        const double told = to_mm(at[k]) * 320.0;
+        CHECK(std::fabs(told - static_cast<double>(machine.counts()[k])) <= 1.0 + 1e-6);
+    }
+    CHECK_FALSE(machine.served->read().known);
+    CHECK(machine.known() == 0);
+}
+
+TEST_CASE("drives that cannot be disabled are named, in the alarm and at the end", "[serve]") {
+    OperatedLines machine;
+    machine.begin_move();
+    machine.lines->fail(true);
+    REQUIRE(machine.says("ALARM:17"));
+    CHECK(machine.text.find("a line cannot be set: No such device: the drives of x, y, z could not be disabled") !=
+          std::string::npos);
+    CHECK(machine.served->finish() == "the drives of x, y, z may still be on: switch their power off");
+}

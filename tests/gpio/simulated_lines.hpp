@@ -2,8 +2,7 @@
 // SimulatedLines: the lines of a map on a virtual clock: what was set when, and switches that act when a test says so.
 #pragma once
 
-#include "host_sim/ports/gpio/gpio_chips.hpp"
-
+#include "splinefeed/hal/gpio/machine_lines.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 namespace splinefeed_test {
 
 /// One chip. Not for several threads at once: those of a VirtualClock are one.
-class SimulatedLines final : public splinefeed::host::GpioLines,
+class SimulatedLines final : public splinefeed::hal::gpio::MachineLines,
                              public splinefeed::hal::gpio::LineWriter,
                              public splinefeed::hal::gpio::InputSource {
 public:
@@ -59,7 +58,7 @@ public:
         return (levels_ & line.mask()) != (safe_ & line.mask());
     }
 
-    // GpioLines
+    // MachineLines
     [[nodiscard]] std::vector<splinefeed::hal::gpio::ChipOutputs> outputs() override {
         splinefeed::hal::gpio::ChipOutputs chip{.writer = this};
         for (unsigned k = 0; k < splinefeed::max_axes; ++k) {

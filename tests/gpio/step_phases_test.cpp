@@ -146,8 +146,9 @@ private:
     }
     void move() {
         const double most_mm = likely(0.1) ? 0.0 : 30.0;
-        StraightMotion motion(rig_.machine, {0.0, 0.0}, {random_.between(0.0, most_mm), random_.between(0.0, most_mm)},
-                              random_.between(5.0, 100.0));
+        hal::StraightMotion motion(rig_.machine.settings, {0.0, 0.0},
+                                   {random_.between(0.0, most_mm), random_.between(0.0, most_mm)},
+                                   random_.between(5.0, 100.0));
         ends_ = false;
         if (likely(0.3)) {
             pause_until_ms_ = rig_.now_ms() + random_.between(0.0, 100.0);

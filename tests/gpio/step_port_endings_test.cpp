@@ -52,7 +52,7 @@ TEST_CASE("a motion that ends in its middle is braked on the path, within the ax
             const Ending& ending = endings[kind];
             CAPTURE(ending.name, seed, round, at_ms);
             PortRig rig;
-            StraightMotion motion(rig.machine, {0.0, 0.0}, {200.0, 100.0}, 100.0);
+            hal::StraightMotion motion(rig.machine.settings, {0.0, 0.0}, {200.0, 100.0}, 100.0);
             static_cast<void>(rig.port.start());
             bool more = true;
             while (rig.now_ms() < at_ms && more) {
@@ -84,7 +84,7 @@ TEST_CASE("a motion that ends in its middle is braked on the path, within the ax
 
 TEST_CASE("a motion that is complete too early before it begins moves nothing", "[stopping]") {
     PortRig rig;
-    StraightMotion motion(rig.machine, {0.0, 0.0}, {200.0, 100.0}, 100.0);
+    hal::StraightMotion motion(rig.machine.settings, {0.0, 0.0}, {200.0, 100.0}, 100.0);
     FeedSegment segment;
     REQUIRE(motion.next(segment));
     REQUIRE(rig.port.submit(segment));
@@ -129,7 +129,7 @@ TEST_CASE("an e-stop between two motions leaves no drive on", "[stopping]") {
 TEST_CASE("a thread that stands still is a fault within a bound, and disables the drives when it goes on",
           "[stopping]") {
     PortRig rig;
-    StraightMotion motion(rig.machine, {0.0, 0.0}, {200.0, 100.0}, 100.0);
+    hal::StraightMotion motion(rig.machine.settings, {0.0, 0.0}, {200.0, 100.0}, 100.0);
     static_cast<void>(rig.port.start());
     bool stalls = false;
     while (rig.port.poll().phase == hal::PortPhase::running) {

@@ -43,7 +43,7 @@ TEST_CASE_METHOD(PlainRig, "a port that was disabled enables nothing, before and
 TEST_CASE_METHOD(PlainRig, "a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
     static_cast<void>(port.start());
     CHECK(lines.enabled());
-    StraightMotion motion(machine, {}, {10.0, 0.0}, 50.0);
+    hal::StraightMotion motion(machine.settings, {}, {10.0, 0.0}, 50.0);
     FeedSegment segment;
     while (motion.next(segment) && port.room() > 0) {
         REQUIRE(port.submit(segment));

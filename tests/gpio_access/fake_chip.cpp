@@ -23,6 +23,10 @@ std::vector<std::string> ChipAccess::names() const {
     return {"A", "B", "C", "D"};
 }
 
+std::string ChipAccess::label() const {
+    return "fake";
+}
+
 struct OutputAccess::Request {};
 
 OutputAccess::OutputAccess(const ChipAccess& chip, const std::string& consumer, std::span<const unsigned> offsets,

@@ -58,6 +58,7 @@ public:
     bool known = true;
     bool has_outputs = true;
     bool home_found = true;
+    bool home_clears = true;
     std::int32_t input = 0;          // what input 1 answers, after spindle_ms
     std::uint32_t spindle_ms = 0;    // that it takes to its speed
     std::uint32_t halts_ms = 0;      // that it takes to halt by itself; 0: it does not
@@ -80,7 +81,7 @@ public:
             stop_at(position_);
         }
         if (homing_ == HomingPhase::busy && now_ >= home_at_) {
-            homing_ = home_found ? HomingPhase::done : HomingPhase::failed;
+            homing_ = home_found ? HomingPhase::done : home_clears ? HomingPhase::failed : HomingPhase::not_cleared;
             known = known || (home_found && home_axes_ == all_axes);
             PerAxis<Position> at = position_;
             for (unsigned k = 0; k < 3; ++k) {

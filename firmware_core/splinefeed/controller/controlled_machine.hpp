@@ -9,7 +9,13 @@
 
 namespace splinefeed {
 
-enum class HomingPhase : std::uint8_t { none, busy, done, failed };
+enum class HomingPhase : std::uint8_t {
+    none,
+    busy,
+    done,
+    failed,
+    not_cleared, ///< failed: a switch acts where its axis should be off it
+};
 
 /// Inputs as the status shows them, by bits; those of the axes' limit switches are bits 0 to 5.
 struct InputBits {

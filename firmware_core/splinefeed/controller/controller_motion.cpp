@@ -317,9 +317,10 @@ bool Controller::go_home() noexcept {
     task_ = Task::none;
     motion_->place(reading_.position);
     set_overrides();
-    if (reading_.homing == HomingPhase::failed) {
+    if (reading_.homing == HomingPhase::failed || reading_.homing == HomingPhase::not_cleared) {
         refuse(LineError::locked);
-        raise(Alarm::homing_not_found, reading_.alarm_sentence);
+        raise(reading_.homing == HomingPhase::failed ? Alarm::homing_not_found : Alarm::homing_pull_off,
+              reading_.alarm_sentence);
     } else {
         locked_ = locked_ && !reading_.known; // the other axes, too
         alarm_ = Alarm::none;

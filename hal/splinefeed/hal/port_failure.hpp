@@ -11,8 +11,10 @@ namespace splinefeed::hal {
 /// What the program that uses a port can change, so that the next run does not fail for this.
 enum class Remedy : std::uint8_t {
     none,
-    reset,     ///< prepare() resets the fault, if its settings ask for that
-    omit_home, ///< prepare() does not home, if its settings do not ask for that
+    reset,        ///< prepare() resets the fault, if its settings ask for that
+    omit_home,    ///< prepare() does not home, if its settings do not ask for that
+    home,         ///< prepare() homes, if its settings ask for that
+    clear_switch, ///< a home switch acts where its axis should be off it: more pull-off, or its wire
 };
 
 struct PortFailure {

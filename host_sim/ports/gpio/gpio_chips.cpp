@@ -69,7 +69,7 @@ std::vector<ChipOutputs> GpioChips::outputs() {
     return chips;
 }
 
-std::vector<GpioLines::Inputs> GpioChips::inputs() {
+std::vector<hal::gpio::MachineLines::Inputs> GpioChips::inputs() {
     std::vector<Inputs> all;
     for (std::size_t c = 0; c < source_.size(); ++c) {
         Inputs chip{source_[c].get(), {}};

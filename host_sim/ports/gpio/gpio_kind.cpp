@@ -3,7 +3,6 @@
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/ports/gpio/gpio_chips.hpp"
-#include "host_sim/ports/gpio/gpio_inputs.hpp"
 #include "host_sim/ports/gpio/gpio_settings.hpp"
 #include "host_sim/ports/gpio/gpio_target.hpp"
 #include "host_sim/ports/gpio/gpio_words.hpp"

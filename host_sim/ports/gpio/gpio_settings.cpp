@@ -86,4 +86,23 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
             .settle_us = 2000};
 }
 
+hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+                                               const RunOptions& options, hal::Clock* clock) {
+    constexpr double search_mm = 2000.0; // of an axis without travel limits
+    constexpr double beyond = 1.2;       // of its travel
+    PerAxis<double> search{};
+    for (const unsigned k : indices(machine.settings.axes)) {
+        const auto& travel = machine.travel[k];
+        search[k] = travel ? beyond * (travel->high - travel->low) : search_mm;
+    }
+    return {.machine = machine.settings,
+            .axis_name = machine.axis_name,
+            .search_mm = search,
+            .step = port_settings(machine, map, clock),
+            .stop = stop_times(machine),
+            .drives_on_at_end = machine.drives_on_at_end.value_or(false),
+            .ends_at_probe = options.probe,
+            .interrupted = options.interrupted};
+}
+
 } // namespace splinefeed::host

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/ports/run_target.hpp"
 
+#include "splinefeed/hal/gpio/gpio_port_settings.hpp"
 #include "splinefeed/hal/gpio/line_map.hpp"
-#include "splinefeed/hal/gpio/step_port.hpp"
-#include "splinefeed/hal/stop_sequence.hpp"
 
 namespace splinefeed::host {
 
@@ -21,5 +21,9 @@ namespace splinefeed::host {
 /// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
 /// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
 [[nodiscard]] hal::StopTimes stop_times(const MachineDescription& machine);
+/// All that a port of this machine has to know.
+[[nodiscard]] hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine,
+                                                             const hal::gpio::LineMap& map, const RunOptions& options,
+                                                             hal::Clock* clock);
 
 } // namespace splinefeed::host

@@ -3,10 +3,9 @@
 
 #include "splinefeed/base/units.hpp"
 
-#include "host_sim/base/input_error.hpp"
-#include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/output/place_text.hpp"
+#include "host_sim/ports/gpio/gpio_chips.hpp"
 #include "host_sim/ports/gpio/gpio_settings.hpp"
 
 #include <algorithm>
@@ -16,11 +15,40 @@
 
 namespace splinefeed::host {
 
+using hal::gpio::GpioCause;
 using hal::gpio::InputRole;
+using hal::gpio::Origin;
 
 namespace {
 
 constexpr int measured_calls = 500; // to measure one by
+
+/// What the user is told of a stop, behind what the port says.
+struct CauseWords {
+    GpioCause cause;
+    StopCause stop;          // what it is for a controller,
+    const char* when_served; // and what to do there
+    const char* in_a_run;
+};
+
+const CauseWords& words_of(GpioCause cause) {
+    static constexpr std::array words{
+        CauseWords{GpioCause::none, StopCause::none, "", ""},
+        CauseWords{GpioCause::asked, StopCause::none, "", ": held on the path"},
+        CauseWords{GpioCause::asked_twice, StopCause::none, "", ": stopped on the path"},
+        CauseWords{GpioCause::untouched, StopCause::none, "", ""},
+        CauseWords{GpioCause::touched, StopCause::none, "", ": held on the path"},
+        CauseWords{GpioCause::limit, StopCause::limit_switch, ": reset, unlock by $X, and jog away from it",
+                   ": held on the path"},
+        CauseWords{GpioCause::led_further, StopCause::limit_switch, "", ""},
+        CauseWords{GpioCause::drive_fault, StopCause::drive_fault, ": see what the drive shows, and reset",
+                   ": held on the path"},
+        CauseWords{GpioCause::misplaced, StopCause::drive_fault, "", ""},
+        CauseWords{GpioCause::e_stop, StopCause::emergency_stop, "", ""},
+        CauseWords{GpioCause::disabled, StopCause::drive_fault, "", ""},
+    };
+    return *std::ranges::find(words, cause, &CauseWords::cause);
+}
 
 std::vector<GpioSummary::Octave> octaves(const hal::TimeHistogram& late) {
     std::vector<GpioSummary::Octave> some;
@@ -39,27 +67,10 @@ std::string lacking(const hal::RealTimeSettings& settings) {
     return missing;
 }
 
-} // namespace
-
-GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
-                       const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
-    : machine_(&machine), options_(options), time_(clock != nullptr ? clock : &hal::system_clock()),
-      map_(std::move(map)), chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
-      // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
-      inputs_(*map_, machine, *chips_, port_,
-              {.priority = clock == nullptr ? map_->thread.priority + 1 : 0, .clock = clock}),
-      mover_(
-          machine, *map_, inputs_, port_,
-          [this] { return !options_.serves         ? SignalWatch::interrupts()
-                          : options_.interrupted() ? 2
-                                                   : 0; },
-          [this] { quick_stop(); }, *time_),
-      stops_(machine, *map_, inputs_), stop_(1, stop_times(machine)), began_ns_(time_->now_ns()) {
-    if (clock == nullptr) {
-        awake_.emplace();
-        missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
-    }
-    const std::vector<std::uint64_t> times = chips_->set_times_ns(measured_calls);
+/// Throws UsageError where the machine cannot do what is asked of it.
+void require_fit(const hal::gpio::LineMap& map, const MachineDescription& machine, hal::gpio::MachineLines& lines,
+                 const RunOptions& options) {
+    const std::vector<std::uint64_t> times = lines.set_times_ns(measured_calls);
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
     if (asked_edges_per_s(machine) > most_edges_per_s(mean_ns)) {
         throw UsageError("--target: a call that sets lines takes {:.1f} us on this chip, so that they can be "
@@ -67,33 +78,39 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
                          "velocities, max_feed_mm_s or steps_per_mm",
                          mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine));
     }
-    if (options.probe && !has(InputRole::probe)) {
+    if (options.probe &&
+        std::ranges::find(map.inputs, InputRole::probe, &hal::gpio::MappedInput::role) == map.inputs.end()) {
         throw UsageError("--probe: the map has no input with the role probe");
     }
-    if (options.home && std::ranges::none_of(map_->home, [](const auto& home) { return home.has_value(); })) {
+    if (options.home && std::ranges::none_of(map.home, [](const auto& home) { return home.has_value(); })) {
         throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
     }
+}
+
+} // namespace
+
+GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<hal::gpio::MachineLines> lines,
+                       const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
+    : machine_(&machine), map_(std::move(map)), lines_(std::move(lines)),
+      port_(*map_, gpio_port_settings(machine, *map_, options, clock), *lines_,
+            [this](const auto& change, const auto& mm) { note(change, mm); }) {
+    if (clock == nullptr) {
+        awake_.emplace();
+        missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
+    }
+    require_fit(*map_, machine, *lines_, options);
+    set_ready(options);
 }
 
 std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
                                              const RunOptions& options) {
     auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
-    std::unique_ptr<GpioLines> lines;
     try {
-        lines = std::make_unique<GpioChips>(*map, machine);
+        auto lines = std::make_unique<GpioChips>(*map, machine);
+        return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);
     } catch (const hal::gpio::GpioError& error) {
         throw TargetError(error.what());
     }
-    return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);
-}
-
-bool GpioTarget::has(InputRole role) const noexcept {
-    return std::ranges::any_of(map_->inputs, [&](const auto& input) { return input.role == role; });
-}
-
-// The lines become safe when nobody sets any more.
-GpioTarget::~GpioTarget() {
-    port_.close();
 }
 
 std::string GpioTarget::note() const {
@@ -102,247 +119,152 @@ std::string GpioTarget::note() const {
                : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
 }
 
-hal::PortFailure GpioTarget::prepare(const FeedSegment& first) {
-    return {make_ready(first)};
+void GpioTarget::set_ready(const RunOptions& options) {
+    port_.order({.reset = options.reset,
+                 .home = options.home,
+                 .home_axes = options.home_axes,
+                 .stays = options.stays,
+                 .placed = options.placed});
 }
 
-// Where axes stand whose place is not known is what the motion says. The others keep their counts.
-std::string GpioTarget::make_ready(const FeedSegment& first) {
-    const auto limit = options_.serves && !options_.home ? stops_.acting() : std::nullopt;
-    if (limit) {
-        return fmt::format("the {} acts", inputs_.name(*limit));
-    }
-    if (std::string what = inputs_.in_the_way(!options_.home && !options_.serves); !what.empty()) {
-        return what;
-    }
-    forget_stop();
-    began_ = true;
-    PerAxis<double> begin_mm{};
-    for (int k = 0; k < machine_->settings.axes; ++k) {
-        const auto axis = static_cast<unsigned>(k);
-        if ((options_.placed >> axis & 1U) != 0) {
-            place_unknown(k, first);
-        }
-        begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
-                         machine_->settings.axis[axis].steps_per_mm;
-    }
-    if (options_.home) {
-        if (std::string what = home(begin_mm); !what.empty()) {
-            return port_.was_disabled() ? fault() : what;
-        }
-    }
-    while (options_.home || !options_.serves ? inputs_.take().has_value() : false) { // changes during homing
-    }
-    port_.close();
-    port_.reset();
-    static_cast<void>(port_.start());
-    begins_ = true;
-    began_ns_ = options_.serves ? began_ns_ : time_->now_ns();
-    return {};
+std::string GpioTarget::holds() const {
+    return port_.hold().what + words_of(port_.hold().cause).in_a_run;
 }
 
-void GpioTarget::place_unknown(int axis, const FeedSegment& first) noexcept {
-    if (!mover_.referenced(axis)) {
-        mover_.preset_position(axis, nearest_step(first.start[static_cast<unsigned>(axis)]));
+std::string GpioTarget::halted(bool quick) const {
+    const GpioCause cause = port_.hold().cause;
+    const std::string what = port_.steps().failure().what;
+    const bool asked = quick || cause == GpioCause::asked_twice;
+    if (!asked && !what.empty()) {
+        return (cause == GpioCause::none ? "" : holds() + "; ") + what + ": stopped on the path by the port";
     }
+    return holds() + (asked || cause == GpioCause::drive_fault
+                          ? ""
+                          : " (by the port: the plan did not bring the way to standstill in time)");
 }
 
-std::string GpioTarget::home(const PerAxis<double>& begin_mm) {
-    const std::uint32_t axes = homes_with(options_.home_axes);
-    for (int k = 0; k < machine_->settings.axes; ++k) {
-        if ((axes >> static_cast<unsigned>(k) & 1U) != 0) {
-            mover_.forget_position(k);
-        }
-    }
-    std::string what = mover_.home(axes);
-    what = what.empty() ? inputs_.in_the_way(true) : what;
-    return !what.empty() || options_.serves ? what : mover_.go_to(begin_mm);
-}
-
-hal::PortState GpioTarget::poll() noexcept {
-    take_changes();
-    // Levels, too: a change may have been taken before the run.
-    if (const auto input = stops_.acting()) {
-        hold_by(*input);
-    }
-    if (inputs_.pressed() && !port_.was_disabled()) {
-        port_.disable();
-    }
-    follow_stop();
-    return port_.poll();
-}
-
-// What all axes do about it, as one: the plan holds; where it does not, the port stops; where that does not, it is cut.
-void GpioTarget::follow_stop() {
-    const std::uint64_t now_us = time_->now_us();
-    if (!holds_.empty()) { // a controller brakes no plan behind the fault of a drive
-        const bool alone = options_.serves && cause_ == StopCause::drive_fault;
-        stop_.request(alone ? hal::StopRequest::quick_stop : hal::StopRequest::hold, now_us);
-    }
-    const hal::PortPhase phase = port_.poll().phase;
-    const hal::StopRequest executed = port_.was_disabled() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
-                                      : port_.halted()                              ? hal::StopRequest::quick_stop
-                                      : completed_ && phase == hal::PortPhase::idle ? hal::StopRequest::hold
-                                                                                    : hal::StopRequest::none;
-    executed_us_ = executed == hal::StopRequest::none ? 0 : executed_us_ == 0 ? now_us : executed_us_;
-    const hal::StopFacts facts{.status_us = port_.last_cycle_us(),
-                               .standstill = port_.at_standstill(),
-                               .executed = executed,
-                               .executed_us = executed_us_};
-    stop_.update(now_us, {&facts, 1});
-    if (stop_.to_send(0) == hal::StopRequest::quick_stop) {
-        port_.quick_stop();
-    } else if (stop_.to_send(0) == hal::StopRequest::disable) {
-        port_.disable();
-    }
-}
-
-PerAxis<double> GpioTarget::positions_at(const std::optional<PerAxis<std::int64_t>>& counts) const {
-    PerAxis<double> out{};
-    for (int k = 0; k < machine_->settings.axes; ++k) {
-        const auto axis = static_cast<unsigned>(k);
-        out[axis] = counts ? mover_.position_at(k, (*counts)[axis]) : mover_.position(k);
-    }
-    return out;
+RunTarget::Stop GpioTarget::stopped_by() {
+    const hal::gpio::GpioHold stop = port_.stopped_by();
+    const CauseWords& words = words_of(stop.cause);
+    return {words.stop, stop.what + words.when_served};
 }
 
 // For the summary.
-void GpioTarget::note(const SwitchChange& change) {
+void GpioTarget::note(const hal::gpio::InputChange& change, const std::optional<PerAxis<double>>& mm) {
     const hal::gpio::MappedInput& input = map_->inputs[change.input];
     GpioSummary::Change entry{
         .role = role_name(input.role),
         .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
         .active = change.active,
-        .time_s = static_cast<double>(static_cast<std::int64_t>(change.time_ns - began_ns_)) / ns_per_s,
+        .time_s = static_cast<double>(static_cast<std::int64_t>(change.time_ns - port_.began_ns())) / ns_per_s,
         .position_mm = std::nullopt};
-    if (change.counts) {
-        const PerAxis<double> at = positions_at(change.counts);
-        entry.position_mm.emplace(at.begin(), at.begin() + machine_->settings.axes);
+    if (mm) {
+        entry.position_mm.emplace(mm->begin(), mm->begin() + machine_->settings.axes);
     }
     input_summary_.add(std::move(entry));
 }
 
-// Behind an alarm, too, where nobody polls: an axis that has stood for a while runs into nothing.
-void GpioTarget::take_changes() {
-    PerAxis<std::int64_t> counts{};
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        counts[k] = port_.counts(static_cast<int>(k));
-    }
-    stops_.follow(counts, time_->now_us());
-    while (const auto change = inputs_.take()) {
-        note(*change);
-        const bool probe = map_->inputs[change->input].role == InputRole::probe;
-        if (probe && probe_away_ && change->active != *probe_away_) {
-            touched_mm_ = positions_at(change->counts);
-            probe_away_.reset();
-        }
-        if (stops_.stops(*change)) {
-            hold_by(change->input);
-        } else if (probe && change->active && options_.probe && holds_.empty()) {
-            holds_ = fmt::format("the {} touched: held on the path", inputs_.name(change->input));
-            probed_ = true;
-        }
-    }
-}
-
-void GpioTarget::complete() noexcept {
-    if (options_.probe && !probed_ && holds_.empty()) {
-        holds_ = "the probe did not touch anything on the way";
-    }
-    completed_ = true;
-    port_.complete();
-}
-
-void GpioTarget::quick_stop() noexcept {
-    quick_ = true;
-    holds_ = "interrupted twice: stopped on the path";
-    stop_.request(hal::StopRequest::quick_stop, time_->now_us());
-    port_.quick_stop();
-}
-
-std::string GpioTarget::halted(bool /*quick*/) const {
-    if (const std::string what = port_.failure().what; !quick_ && !what.empty()) {
-        return (holds_.empty() ? holds_ : holds_ + "; ") + what + ": stopped on the path by the port";
-    }
-    return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
-}
-
-std::string GpioTarget::finish() {
-    port_.close();
-    if (machine_->drives_on_at_end.value_or(false) && port_.position_known()) {
-        chips_->keep_drives_on();
-    } else {
-        port_.power_off();
-    }
-    finished_ = true;
-    return port_.may_be_on() && port_.position_known()
-               ? "the drives could not be disabled and may still be on: " + port_.failure().what
-               : std::string();
-}
-
-void GpioTarget::close() noexcept {
-    port_.close();
-    if (!finished_) {
-        chips_->make_safe();
-    }
-}
-
-std::string GpioTarget::fault() const {
-    const char* const drives = port_.may_be_on() ? "the drives could not be disabled" : "the drives were disabled";
-    if (const std::string what = inputs_.trouble(); !what.empty()) {
-        return what + ": " + drives;
-    }
-    if (!port_.was_disabled()) {
-        return port_.failure().what;
-    }
-    // Asked of the port as the last means, or of the switch.
-    return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: " + drives
-                                                                : std::string("the e-stop was pressed: ") + drives;
-}
-
 // By the steps that were made from a reference on.
 std::optional<double> GpioTarget::place(int axis) const {
-    return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
+    return port_.places().origin(axis) == Origin::known ? std::optional(port_.places().position(axis)) : std::nullopt;
 }
 
 // Nothing on step lines knows it but the steps that were made; behind homing they are moved.
 std::vector<RunTarget::AxisPlace> GpioTarget::standing() {
+    return port_.orders().home ? std::vector<AxisPlace>() : references();
+}
+
+std::vector<RunTarget::AxisPlace> GpioTarget::references() const {
     std::vector<AxisPlace> out;
-    for (int k = 0; !options_.home && k < machine_->settings.axes; ++k) {
+    for (int k = 0; k < machine_->settings.axes; ++k) {
         out.push_back({static_cast<unsigned>(k), port_.position_known() ? place(k) : std::nullopt});
     }
     return out;
 }
 
-// An axis that is asked to stop is at its place once it stands.
+// The last steps are the place, known or not. An axis that is asked to stop is there once it stands.
 std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
     std::vector<AxisPlace> out;
-    for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
+    const bool stands = port_.hold().cause == GpioCause::none || port_.steps().at_standstill();
+    for (int k = 0; port_.began() && k < machine_->settings.axes; ++k) {
+        const Origin origin = port_.places().origin(k);
         out.push_back({.axis = static_cast<unsigned>(k),
-                       .mm = port_.position_known() ? place(k) : std::nullopt,
-                       .online = holds_.empty() || port_.at_standstill()});
+                       .mm = origin != Origin::none ? std::optional(port_.places().position(k)) : std::nullopt,
+                       .online = stands && port_.position_known() && origin == Origin::known});
     }
     return out;
 }
 
 std::string GpioTarget::where() const {
-    if (!began_) {
+    if (!port_.began()) {
         return "; nothing was moved";
     }
     constexpr const char* unknown = "where the machine stands is not known (find the references again); the last steps "
                                     "were those to";
-    PlaceText text(port_.position_known() ? std::string("; the machine stands at")
-                   : port_.may_be_on()    ? std::string("; drives may still be on, and ") + unknown
-                                          : std::string("; drives are off, and ") + unknown);
+    PlaceText text(port_.position_known()      ? std::string("; the machine stands at")
+                   : port_.steps().may_be_on() ? std::string("; drives may still be on, and ") + unknown
+                                               : std::string("; drives are off, and ") + unknown);
     for (int k = 0; k < machine_->settings.axes; ++k) {
         text.add(machine_->axis_name[static_cast<unsigned>(k)], place(k));
     }
     return text.text();
 }
 
+std::uint32_t GpioTarget::homes_with(std::uint32_t axes) const {
+    std::uint32_t out = 0;
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out |= map_->home[k] ? axes & (1U << k) : 0U;
+    }
+    return out;
+}
+
+SwitchFacts GpioTarget::switch_facts() const {
+    SwitchFacts out;
+    out.homes = homes_with(UINT32_MAX);
+    for (const hal::gpio::MappedInput& input : map_->inputs) {
+        out.probe = out.probe || input.role == InputRole::probe;
+        if (input.role == InputRole::limit) {
+            out.limits |= 1U << static_cast<unsigned>(input.axis);
+            out.debounce_us = std::max(out.debounce_us, input.debounce_us);
+        }
+    }
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        if (const auto& home = map_->home[k]) {
+            const auto slower = [](double so_far, double mm_s) {
+                return so_far > 0.0 ? std::min(so_far, mm_s) : mm_s;
+            };
+            out.homes_low |= home->towards_high ? 0U : 1U << k;
+            out.pull_off_mm = std::max(out.pull_off_mm, home->pull_off_mm);
+            out.seek_mm_s = slower(out.seek_mm_s, home->seek_mm_s);
+            out.latch_mm_s = slower(out.latch_mm_s, home->latch_mm_s);
+        }
+    }
+    out.no_home = fmt::format("add [home.AXIS] to {}, and an [[input]] with role = \"home\"", map_->file);
+    return out;
+}
+
+RunTarget::Switches GpioTarget::switches() {
+    port_.take_changes();
+    Switches out{.touched_mm = port_.touched_mm()};
+    for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+        const hal::gpio::MappedInput& input = map_->inputs[i];
+        if (port_.inputs().active(i)) {
+            out.limits |= input.role == InputRole::limit ? 1U << static_cast<unsigned>(input.axis) : 0U;
+            out.probe = out.probe || input.role == InputRole::probe;
+            out.e_stop = out.e_stop || input.role == InputRole::e_stop;
+        }
+    }
+    return out;
+}
+
+std::uint64_t GpioTarget::least_ahead_us() const noexcept {
+    constexpr std::uint64_t on_its_way_us = 8'000; // from the plan to the port, by two threads
+    return port_.steps().reserve_us() + on_its_way_us;
+}
+
 void GpioTarget::describe(Summary& summary) const {
-    const hal::TimeHistogram& late = port_.late();
-    const hal::gpio::StepPortReport report = port_.report();
+    const hal::TimeHistogram& late = port_.steps().late();
+    const hal::gpio::StepPortReport report = port_.steps().report();
     summary.gpio = GpioSummary{.edges = report.edges,
                                .median_late_s = late.below_us(0.5) / us_per_s,
                                .p99_late_s = late.below_us(0.99) / us_per_s,
@@ -350,8 +272,8 @@ void GpioTarget::describe(Summary& summary) const {
                                .late = octaves(late),
                                .schedule_slip_s = static_cast<double>(report.schedule_slip_ns) / ns_per_s,
                                .buffer_underruns = report.buffer_underruns,
-                               .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
-                               .missed = inputs_.missed(),
+                               .began_monotonic_s = static_cast<double>(port_.began_ns()) / ns_per_s,
+                               .missed = port_.inputs().missed(),
                                .changes = input_summary_.changes,
                                .changes_left_out = input_summary_.changes_left_out};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/ports/gpio/line_claims.hpp"
 
+#include "splinefeed/hal/gpio/chip_lookup.hpp"
+
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -8,8 +10,9 @@ namespace splinefeed::host {
 
 LineClaims::LineClaims(const hal::gpio::ChipLines& chip) {
     std::error_code none;
-    const std::filesystem::path device = std::filesystem::canonical(chip.chip, none); // it may be a link
-    const std::string path = none ? chip.chip : device.string();
+    const std::string found = hal::gpio::find_chip(chip.chip);
+    const std::filesystem::path device = std::filesystem::canonical(found, none); // it may be a link
+    const std::string path = none ? found : device.string();
     for (const hal::gpio::OutputRequest& output : chip.outputs) {
         add(path, output.line);
     }

@@ -65,6 +65,7 @@ make_chip() {
     local chip=/sys/kernel/config/gpio-sim/$1 offset=0 name
     mkdir -p "$chip/bank0"
     echo "$2" >"$chip/bank0/num_lines"
+    echo "$1" >"$chip/bank0/label"
     for name in $3; do
         if [ "$name" != - ]; then
             mkdir "$chip/bank0/line$offset"

@@ -4,7 +4,7 @@
 . /guest.sh
 set -e
 chip=$(chip_path cnc)
-target="gpio://$chip?map=lines.toml"
+target="gpio://label=cnc?map=lines.toml"
 machine=machine.toml
 
 # begin NAME PROGRAM OPTION...: a run in the background; its trace begins here. Its process is $run.
@@ -202,14 +202,17 @@ status=0
 ./splinefeed link --target "$target" -m machine.toml 2>/out/line_busy.err || status=$?
 echo $status >/out/line_busy.status
 ends
-for wrong in name offset chip; do
+for wrong in name offset chip label; do
     cp lines.toml wrong.toml
     case $wrong in
         name) sed -i 's/"X_STEP"/"X_STEPP"/' wrong.toml ;;
         offset) sed -i 's/offset = 3/offset = 7/' wrong.toml ;;
-        chip) target="gpio:///dev/gpiochip7?map=wrong.toml" ;;
     esac
-    [ $wrong = chip ] || target="gpio://$chip?map=wrong.toml"
+    case $wrong in
+        chip) target="gpio:///dev/gpiochip7?map=wrong.toml" ;;
+        label) target="gpio://label=none?map=wrong.toml" ;;
+        *) target="gpio://$chip?map=wrong.toml" ;;
+    esac
     begin wrong_$wrong there.csv
     ends
 done

@@ -264,8 +264,9 @@ def judge(out):
     run("wrong_name").ended(1, "X_STEPP", "X_STEP")
     run("wrong_offset").ended(1, "Y_DIR")
     run("wrong_chip").ended(1, "/dev/gpiochip7")
+    run("wrong_label").ended(1, "there is no GPIO chip with the label 'none'; this machine has /dev/gpiochip")
     run("chip_vanishes").ended(1, "No such device")
-    for name in ("estop_at_once", "wrong_name", "wrong_offset", "wrong_chip"):
+    for name in ("estop_at_once", "wrong_name", "wrong_offset", "wrong_chip", "wrong_label"):
         runs[name].check(not runs[name].edges, "it moved")
     return runs
 

@@ -31,6 +31,7 @@ public:
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] LineFacts facts(unsigned offset) const; ///< throws GpioError
     [[nodiscard]] std::vector<std::string> names() const; ///< of all lines; throws GpioError
+    [[nodiscard]] std::string label() const;              ///< throws GpioError
 
     struct Handle;
     [[nodiscard]] Handle& handle() const noexcept { return *handle_; }

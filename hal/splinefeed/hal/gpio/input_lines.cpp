@@ -3,6 +3,7 @@
 
 #include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/gpio/chip_access.hpp"
+#include "splinefeed/hal/gpio/chip_lookup.hpp"
 
 #include <cerrno>
 #include <utility>
@@ -24,7 +25,7 @@ void sort_by_time(std::span<InputEvent> events) noexcept {
 
 struct InputLines::Lines {
     Lines(const std::string& path, const std::string& consumer, std::span<const InputRequest> requests)
-        : chip(path), input(chip, consumer, offsets_of(chip, requests), requests) {}
+        : chip(find_chip(path)), input(chip, consumer, offsets_of(chip, requests), requests) {}
 
     ChipAccess chip;
     InputAccess input;

@@ -15,7 +15,7 @@ class InputLines final : public InputSource {
 public:
     /// Requests the lines. From then on edges are queued: with libgpiod 1.x the first 16 unread ones of each line,
     /// with 2.x the last 1024 of all lines.
-    /// @param chip  path, for example "/dev/gpiochip0"
+    /// @param chip  path, for example "/dev/gpiochip0", or "label=" and its label
     /// @param consumer  name that the system shows as the user of the lines, up to 31 characters
     /// @param requests  1 to 64; bit i of the levels is request i
     /// Throws GpioError; then no line is requested.

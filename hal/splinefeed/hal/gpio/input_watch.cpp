@@ -80,7 +80,6 @@ void InputWatch::fail(int error) {
 
 void InputWatch::change(std::size_t index, bool active) {
     const Watched& watched = watched_[index];
-    active_[index].store(active);
     InputChange change{index, active, watched.debounce.since_ns(), std::nullopt};
     for (std::size_t i = 0; i < std::min(watched.edge_count, max_edges); ++i) {
         if (watched.edges[i].time_ns == change.time_ns) {
@@ -89,6 +88,7 @@ void InputWatch::change(std::size_t index, bool active) {
     }
     const std::lock_guard lock(mutex_);
     changes_.push_back(change);
+    active_[index].store(active); // behind it: whoever sees the level can take the change
 }
 
 void InputWatch::edge(std::size_t index, std::uint64_t time_ns, bool level) {

@@ -56,7 +56,7 @@ public:
     /// Reads the levels and starts the thread. Returns false if the levels cannot be read.
     [[nodiscard]] bool start();
 
-    /// Whether the input is active, by the last known level.
+    /// Whether the input is active, by the last known level. The change to it can then be taken.
     [[nodiscard]] bool active(std::size_t input) const noexcept { return active_[input].load(); }
     /// Removes and returns the oldest change.
     [[nodiscard]] std::optional<InputChange> take();

@@ -9,7 +9,7 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
     return std::string("'").append(name).append("'");
 }
 
@@ -27,7 +27,7 @@ std::string nearest(std::string_view name, std::span<const std::string> names) {
     std::string text;
     for (std::size_t i = 0; i < near.size(); ++i) {
         text += i == 0 ? "did you mean " : i + 1 == near.size() ? " or " : ", ";
-        text += quoted(names[near[i].second]) + " (line " + std::to_string(near[i].second) + ")";
+        text += in_quotes(names[near[i].second]) + " (line " + std::to_string(near[i].second) + ")";
     }
     return text.empty() ? text : text + "?";
 }
@@ -45,7 +45,7 @@ std::vector<unsigned> lines_named(std::span<const std::string> names, const std:
 unsigned by_name(const std::string& chip, std::span<const std::string> names, const std::string& name) {
     const std::vector<unsigned> found = lines_named(names, name);
     if (found.size() > 1) {
-        throw GpioError(chip + " has " + std::to_string(found.size()) + " lines named " + quoted(name) + ", lines " +
+        throw GpioError(chip + " has " + std::to_string(found.size()) + " lines named " + in_quotes(name) + ", lines " +
                         std::to_string(found[0]) + " and " + std::to_string(found[1]) +
                         "; give the offset of the one that is meant");
     }
@@ -57,7 +57,7 @@ unsigned by_name(const std::string& chip, std::span<const std::string> names, co
         const bool any = std::any_of(names.begin(), names.end(), [](const std::string& each) { return !each.empty(); });
         hint = any ? "gpioinfo lists their names" : "its lines have no names: give offsets";
     }
-    throw GpioError(chip + " has no line named " + quoted(name) + "; " + hint);
+    throw GpioError(chip + " has no line named " + in_quotes(name) + "; " + hint);
 }
 
 unsigned by_offset(const std::string& chip, std::span<const std::string> names, const LineName& wanted) {
@@ -71,8 +71,8 @@ unsigned by_offset(const std::string& chip, std::span<const std::string> names, 
         return offset;
     }
     const std::vector<unsigned> found = lines_named(names, wanted.name);
-    const std::string is = names[offset].empty() ? "has no name" : "is named " + quoted(names[offset]);
-    throw GpioError("line " + std::to_string(offset) + " of " + chip + " " + is + ", where " + quoted(wanted.name) +
+    const std::string is = names[offset].empty() ? "has no name" : "is named " + in_quotes(names[offset]);
+    throw GpioError("line " + std::to_string(offset) + " of " + chip + " " + is + ", where " + in_quotes(wanted.name) +
                     " was expected; " +
                     (found.empty() ? "correct the name, or leave it out"
                                    : "that is line " + std::to_string(found[0]) + ": correct one of both"));
@@ -82,7 +82,7 @@ unsigned by_offset(const std::string& chip, std::span<const std::string> names, 
 
 std::string line_text(unsigned offset, std::string_view name) {
     const std::string number = "line " + std::to_string(offset);
-    return name.empty() ? number : number + " (" + quoted(name) + ")";
+    return name.empty() ? number : number + " (" + in_quotes(name) + ")";
 }
 
 std::vector<unsigned> find_lines(const std::string& chip, std::span<const std::string> names,

@@ -24,7 +24,7 @@ struct LineBit {
 
 /// The lines used on one chip: one OutputLines and one InputLines object, unless empty.
 struct ChipLines {
-    std::string chip; ///< "/dev/gpiochip0"
+    std::string chip; ///< "/dev/gpiochip0", or "label=pinctrl-bcm2711"
     std::vector<OutputRequest> outputs;
     std::vector<InputRequest> inputs;
 };

@@ -113,6 +113,10 @@ LineFacts ChipAccess::facts(unsigned offset) const {
     return {name != nullptr ? name : "", consumer != nullptr ? consumer : "", gpiod_line_is_used(line)};
 }
 
+std::string ChipAccess::label() const {
+    return gpiod_chip_label(handle_->chip);
+}
+
 std::vector<std::string> ChipAccess::names() const {
     std::vector<std::string> out;
     for (unsigned offset = 0; offset < gpiod_chip_num_lines(handle_->chip); ++offset) {

@@ -104,6 +104,14 @@ LineFacts ChipAccess::facts(unsigned offset) const {
     return {name != nullptr ? name : "", consumer != nullptr ? consumer : "", gpiod_line_info_is_used(info.get())};
 }
 
+std::string ChipAccess::label() const {
+    const ChipInfo info(gpiod_chip_get_info(handle_->chip.get()));
+    if (info == nullptr) {
+        refuse_chip(path_, errno);
+    }
+    return gpiod_chip_info_get_label(info.get());
+}
+
 std::vector<std::string> ChipAccess::names() const {
     const ChipInfo info(gpiod_chip_get_info(handle_->chip.get()));
     if (info == nullptr) {

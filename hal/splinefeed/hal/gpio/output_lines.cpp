@@ -2,6 +2,7 @@
 #include "splinefeed/hal/gpio/output_lines.hpp"
 
 #include "splinefeed/hal/gpio/chip_access.hpp"
+#include "splinefeed/hal/gpio/chip_lookup.hpp"
 
 #include <cerrno>
 
@@ -17,7 +18,7 @@ std::uint64_t mask_of(int size) {
 
 struct OutputLines::Lines {
     Lines(const std::string& path, const std::string& consumer, std::span<const OutputRequest> requests)
-        : chip(path), output(chip, consumer, offsets_of(chip, requests), safe_levels_of(requests)) {}
+        : chip(find_chip(path)), output(chip, consumer, offsets_of(chip, requests), safe_levels_of(requests)) {}
 
     ChipAccess chip;
     OutputAccess output;

@@ -15,7 +15,7 @@ namespace splinefeed::hal::gpio {
 class OutputLines final : public LineWriter {
 public:
     /// Requests the lines and sets their safe levels.
-    /// @param chip  path, for example "/dev/gpiochip0"
+    /// @param chip  path, for example "/dev/gpiochip0", or "label=" and its label
     /// @param consumer  name that the system shows as the user of the lines, up to 31 characters
     /// @param requests  1 to 64; bit i of a mask is request i
     /// Throws GpioError; then no line is requested.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// GpioStops: which limits and drive faults stop the motion, and limits that axes may leave.
+// SwitchStops: which limits and drive faults stop the motion, and limits that axes may leave.
 #pragma once
 
-#include "host_sim/ports/gpio/gpio_inputs.hpp"
+#include "splinefeed/hal/gpio/switch_inputs.hpp"
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
@@ -10,20 +10,20 @@
 #include <optional>
 #include <vector>
 
-namespace splinefeed::host {
+namespace splinefeed::hal::gpio {
 
 /// A limit that an axis has run into acts until the axis is moved off it. let_leave() permits that: the limit may go on
 /// acting until it lets go, and its axis does not go further the way that it came.
-class GpioStops {
+class SwitchStops {
 public:
     /// All must outlive it.
-    GpioStops(const MachineDescription& machine, const hal::gpio::LineMap& map, const GpioInputs& inputs)
-        : machine_(&machine), map_(&map), inputs_(&inputs), leaving_(map.inputs.size()) {}
+    SwitchStops(const GpioPortSettings& settings, const LineMap& map, const SwitchInputs& inputs)
+        : settings_(&settings), map_(&map), inputs_(&inputs), leaving_(map.inputs.size()) {}
 
     /// Each millisecond. @param counts  of the port
     void follow(const PerAxis<std::int64_t>& counts, std::uint64_t now_us);
     /// Whether a change stops the motion.
-    [[nodiscard]] bool stops(const SwitchChange& change);
+    [[nodiscard]] bool stops(const InputChange& change);
     /// The first limit or drive fault that acts, and may not; nothing: there is none.
     [[nodiscard]] std::optional<std::size_t> acting();
     /// The limit that this piece of motion would go further into; nothing: there is none.
@@ -45,17 +45,15 @@ private:
         std::int64_t let_go = 0; // where its axis was then
     };
 
-    [[nodiscard]] bool is_limit(std::size_t input) const {
-        return map_->inputs[input].role == hal::gpio::InputRole::limit;
-    }
+    [[nodiscard]] bool is_limit(std::size_t input) const { return map_->inputs[input].role == InputRole::limit; }
     void look(std::size_t input, bool active);
 
-    const MachineDescription* machine_;
-    const hal::gpio::LineMap* map_;
-    const GpioInputs* inputs_;
+    const GpioPortSettings* settings_;
+    const LineMap* map_;
+    const SwitchInputs* inputs_;
     std::array<Way, max_axes> way_{};
     std::vector<Leaving> leaving_; // as the inputs
     std::uint64_t now_us_ = 0;
 };
 
-} // namespace splinefeed::host
+} // namespace splinefeed::hal::gpio

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/gpio/gpio_stops.hpp"
+#include "splinefeed/hal/gpio/switch_stops.hpp"
 
 #include <cstdlib>
 
-namespace splinefeed::host {
-
-using hal::gpio::InputRole;
+namespace splinefeed::hal::gpio {
 
 namespace {
 
@@ -17,7 +15,7 @@ bool stopping(InputRole role) noexcept {
 
 } // namespace
 
-void GpioStops::follow(const PerAxis<std::int64_t>& counts, std::uint64_t now_us) {
+void SwitchStops::follow(const PerAxis<std::int64_t>& counts, std::uint64_t now_us) {
     now_us_ = now_us;
     for (std::size_t k = 0; k < way_.size(); ++k) {
         Way& way = way_[k];
@@ -28,7 +26,7 @@ void GpioStops::follow(const PerAxis<std::int64_t>& counts, std::uint64_t now_us
 }
 
 // Where it lets go it stops the motion from then on. A switch that bounces there has not changed its side.
-void GpioStops::look(std::size_t input, bool active) {
+void SwitchStops::look(std::size_t input, bool active) {
     constexpr double near_mm = 5.0;
     Leaving& leaving = leaving_[input];
     const int axis = map_->inputs[input].axis;
@@ -36,7 +34,7 @@ void GpioStops::look(std::size_t input, bool active) {
         const auto k = static_cast<unsigned>(axis);
         const Way& way = way_[k];
         const double away_mm =
-            static_cast<double>(std::llabs(way.count - leaving.let_go)) / machine_->settings.axis[k].steps_per_mm;
+            static_cast<double>(std::llabs(way.count - leaving.let_go)) / settings_->machine.axis[k].steps_per_mm;
         const bool moves = way.changed_us > 0 && now_us_ < way.changed_us + slow_us;
         if (!active) {
             leaving.let_go = way.count;
@@ -48,12 +46,12 @@ void GpioStops::look(std::size_t input, bool active) {
     leaving.may = leaving.may && active;
 }
 
-bool GpioStops::stops(const SwitchChange& change) {
+bool SwitchStops::stops(const InputChange& change) {
     look(change.input, change.active);
     return change.active && stopping(map_->inputs[change.input].role) && !leaving_[change.input].may;
 }
 
-std::optional<std::size_t> GpioStops::acting() {
+std::optional<std::size_t> SwitchStops::acting() {
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < leaving_.size(); ++i) {
         look(i, inputs_->active(i));
@@ -64,7 +62,7 @@ std::optional<std::size_t> GpioStops::acting() {
     return first;
 }
 
-std::optional<std::size_t> GpioStops::led_into(const FeedSegment& segment) const {
+std::optional<std::size_t> SwitchStops::led_into(const FeedSegment& segment) const {
     for (std::size_t i = 0; i < leaving_.size(); ++i) {
         if (leaving_[i].may && leaving_[i].came != 0) {
             const auto axis = static_cast<unsigned>(map_->inputs[i].axis);
@@ -77,11 +75,11 @@ std::optional<std::size_t> GpioStops::led_into(const FeedSegment& segment) const
     return std::nullopt;
 }
 
-void GpioStops::let_leave() {
+void SwitchStops::let_leave() {
     for (std::size_t i = 0; i < leaving_.size(); ++i) {
         look(i, inputs_->active(i));
         leaving_[i].may = leaving_[i].acted && is_limit(i);
     }
 }
 
-} // namespace splinefeed::host
+} // namespace splinefeed::hal::gpio

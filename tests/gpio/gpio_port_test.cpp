@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Motions of a GpioTarget, one behind the other.
+// Motions of a GpioPort, one behind the other.
 #include "port_rig.hpp"
 #include "support/catch.hpp"
 
@@ -11,7 +11,7 @@ using namespace splinefeed_test;
 namespace {
 
 struct Motions : TargetRig {
-    Motions() : TargetRig(two_axes(), map_text, {.serves = true}), port(run_target().port()) {}
+    Motions() : TargetRig(two_axes(), map_text), port(run_target().port()) {}
 
     [[nodiscard]] RunTarget& run_target() { return *target; }
     /// Of x, in units, in 200 ms. Returns how it ended.
@@ -51,5 +51,5 @@ TEST_CASE("a motion that begins elsewhere than where its axis stands is refused"
     CHECK(motions.move(0, 10 * units_per_count) == hal::PortPhase::idle);
     CHECK(motions.move(9 * units_per_count, 0) == hal::PortPhase::halted);
     CHECK(motions.x_counts() == 10.0);
-    CHECK(motions.run_target().stopped_by().why == "axis x stands at 0.1250 mm, and its motion begins at 0.1125 mm");
+    CHECK(motions.run_target().stopped_by().why == "axis x stands at 0.125 mm, and its motion begins at 0.1125 mm");
 }
