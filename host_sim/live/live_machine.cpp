@@ -32,13 +32,14 @@ LiveMachine::LiveMachine(RunTarget& target, const MachineDescription& machine, c
                          MakeOutputs outputs)
     : target_(&target), machine_(&machine), settings_(settings), make_outputs_(std::move(outputs)),
       outputs_(make_outputs_().release()), reads_inputs_(outputs_ != nullptr && outputs_->reads_inputs()) {
+    facts_ = target.facts();
     feed_.emplace(target, outputs_.get(), settings.record, *settings.clock);
     gives_up_.store(false);
     known_.mm = settings.told_mm;
-    unlocked_axes_ = all_axes() & (target.has_feedback() ? UINT32_MAX : ~target.switch_facts().homes);
+    unlocked_axes_ = all_axes() & (facts_.has_feedback ? UINT32_MAX : ~facts_.switches.homes);
     if (serves()) {
         find_place();
-        known_.axes |= target_->has_feedback() ? 0U : settings.told & all_axes();
+        known_.axes |= facts_.has_feedback ? 0U : settings.told & all_axes();
         kept_places_ = places();
         start();
     }
@@ -86,7 +87,7 @@ const std::string& LiveMachine::finish() {
 bool LiveMachine::is_dry() const {
     const std::uint64_t left = submitted() - std::min(submitted(), executed());
     return stalls_.load() ||
-           left * settings_.segment_ticks < target_->least_ahead_us() * static_cast<std::uint64_t>(ticks_per_us);
+           left * settings_.segment_ticks < facts_.least_ahead_us * static_cast<std::uint64_t>(ticks_per_us);
 }
 
 bool LiveMachine::submit(const FeedSegment& segment, std::uint64_t line, std::uint64_t moves) {
@@ -262,7 +263,7 @@ void LiveMachine::home(std::uint32_t axes) noexcept {
 
 bool LiveMachine::halt() noexcept {
     const std::lock_guard lock(mutex_);
-    const bool halts = submitted_ != finished_ && target_->halts();
+    const bool halts = submitted_ != finished_ && facts_.halts;
     orders_.stops = halts ? std::max(orders_.stops, 1) : orders_.stops;
     return halts;
 }

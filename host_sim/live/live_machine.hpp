@@ -200,8 +200,8 @@ private:
     // live_thread.cpp
     void work() noexcept;
     void step();
-    void announce();
-    void look_at_switches();
+    void look_at_signs(bool announces);
+    void announce(const RunTarget::Stop& stop);
     [[nodiscard]] Orders take_orders();
     [[nodiscard]] bool may_move();
     void come_to(std::uint64_t executed);
@@ -236,6 +236,7 @@ private:
     RunTarget* target_ = nullptr;
     const MachineDescription* machine_ = nullptr;
     Settings settings_{};
+    TargetFacts facts_{};
     MakeOutputs make_outputs_;
     std::unique_ptr<ProgramOutputs, DeleteInTime> outputs_;
     bool reads_inputs_ = false;       // outputs_ do

@@ -23,7 +23,7 @@ void LiveMachine::find_place() {
     }
     phase_ = Phase::open;
     const std::lock_guard lock(mutex_);
-    known_.axes = target_->has_feedback() ? 0U : known_.axes;
+    known_.axes = facts_.has_feedback ? 0U : known_.axes;
     for (const RunTarget::AxisPlace& at : places) {
         known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
         known_.axes |= at.mm ? 1U << at.axis : 0U;
@@ -101,18 +101,20 @@ FeedSegment LiveMachine::standing() const {
 }
 
 void LiveMachine::close() {
-    target_->disconnect();
+    if (facts_.has_feedback) {
+        target_->port().close();
+    }
     phase_ = Phase::closed;
 }
 
 void LiveMachine::switch_off() {
-    if (phase_ == Phase::ready || !target_->has_feedback()) {
-        if (const std::string what = target_->switch_off(); !what.empty()) {
+    if (phase_ == Phase::ready || !facts_.has_feedback) {
+        if (const std::string what = target_->leave(true); !what.empty()) {
             fail(what);
             return;
         }
     }
-    if (!target_->has_feedback()) {
+    if (!facts_.has_feedback) {
         static_cast<void>(look_where(true)); // motors that hold no axis
     }
     close();
@@ -131,7 +133,7 @@ void LiveMachine::recover(bool resets) {
         reopen();
     }
     // Drives that were on and cannot be asked still are; those that an e-stop has switched off wait for a motion.
-    if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !target_->has_feedback()) {
+    if (phase_ != Phase::open || !resets || known_axes() != all_axes() || !facts_.has_feedback) {
         return;
     }
     if (const hal::PortFailure failure = make_ready(standing())) {
@@ -154,7 +156,7 @@ void LiveMachine::renew_outputs() {
 }
 
 void LiveMachine::reopen() {
-    if (!target_->has_feedback()) {
+    if (!facts_.has_feedback) {
         static_cast<void>(look_where(true)); // what was lost meanwhile stays so
     }
     close();
@@ -170,7 +172,7 @@ void LiveMachine::reopen() {
 // anywhere.
 void LiveMachine::find_references(std::uint32_t axes) {
     const std::uint32_t known = known_axes();
-    const std::uint32_t search = target_->homes_with(axes);
+    const std::uint32_t search = facts_.search_of(axes);
     if (phase_ == Phase::ready || phase_ == Phase::closed) {
         reopen();
     }
@@ -195,10 +197,7 @@ void LiveMachine::find_references(std::uint32_t axes) {
     const bool homed = phase_ == Phase::ready;
     if (homed) {
         take_place(found);
-        const std::lock_guard lock(mutex_);
-        for (const RunTarget::AxisPlace& at : target_->references()) {
-            known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
-        }
+        static_cast<void>(facts_.has_feedback || look_where(true)); // where they stand behind their switches
     } else if (phase_ == Phase::open) {
         reopen(); // where it stands now
     }

@@ -63,7 +63,7 @@ LiveMachine::Orders LiveMachine::take_orders() {
     const bool moves = !serves() || submitted_ != finished_;
     const int signals = std::min(SignalWatch::interrupts(), 2);
     // Of a machine that is served the plan brakes, as at each reset, where the drives do not do so sooner.
-    const int asked = !serves() || target_->halts() || signals > 1 ? signals : 0;
+    const int asked = !serves() || facts_.halts || signals > 1 ? signals : 0;
     orders_.stops = moves ? std::max(orders_.stops, asked) : 0;
     Orders out = orders_;
     out.home = waits_ ? 0U : out.home;
@@ -112,14 +112,14 @@ void LiveMachine::step() {
     }
     come_to(feed_->executed());
     if (phase_ == Phase::ready) {
-        if (const std::optional<MotionEnd> end = feed_->look(orders.stops, moves)) {
+        const std::optional<MotionEnd> end = feed_->look(orders.stops, moves);
+        if (end) {
             come_to(feed_->executed());
             end_motion(*end);
         } else {
             static_cast<void>(look_where(false));
-            announce();
         }
-        look_at_switches();
+        look_at_signs(!end);
         return;
     }
     if (!serves()) {
@@ -129,10 +129,7 @@ void LiveMachine::step() {
         return;
     }
     feed_->tend_outputs();
-    if (phase_ != Phase::closed) {
-        announce();
-    }
-    look_at_switches();
+    look_at_signs(phase_ != Phase::closed);
     if (phase_ != Phase::failed && !feed_->trouble().empty()) {
         fail(feed_->trouble(), trouble_alarm());
     } else if (feed_->waits() && (phase_ == Phase::failed || orders.stops > 0)) {
@@ -143,12 +140,8 @@ void LiveMachine::step() {
 }
 
 // What stops the machine is an alarm at once: where its drives do not halt by themselves the plan brakes.
-void LiveMachine::announce() {
-    if (!serves()) {
-        return;
-    }
-    const RunTarget::Stop stop = target_->stopped_by();
-    const bool troubled = !feed_->trouble().empty() && !target_->halts();
+void LiveMachine::announce(const RunTarget::Stop& stop) {
+    const bool troubled = !feed_->trouble().empty() && !facts_.halts;
     const Alarm alarm = troubled ? trouble_alarm() : alarm_of(stop.cause);
     const std::string& why = troubled ? feed_->trouble() : stop.why;
     bool moves = false;
@@ -167,14 +160,19 @@ void LiveMachine::announce() {
     }
 }
 
-void LiveMachine::look_at_switches() {
+void LiveMachine::look_at_signs(bool announces) {
     if (!serves()) {
         return;
     }
-    RunTarget::Switches now = target_->switches();
-    const std::lock_guard lock(mutex_);
-    now.touched_mm = orders_.probe ? std::nullopt : now.touched_mm; // of the one before
-    known_.switches = now;
+    RunTarget::Signs now = target_->signs();
+    {
+        const std::lock_guard lock(mutex_);
+        now.switches.touched_mm = orders_.probe ? std::nullopt : now.switches.touched_mm; // of the one before
+        known_.switches = now.switches;
+    }
+    if (announces) {
+        announce(now.stop);
+    }
 }
 
 // The machine is in the segment behind those that were executed.
@@ -213,7 +211,7 @@ void LiveMachine::end_motion(const MotionEnd& end) {
         fail(feed_->trouble(), trouble_alarm());
         return;
     }
-    if (end.kind == MotionEnd::Kind::fault || target_->stopped_by().cause != StopCause::none) {
+    if (end.kind == MotionEnd::Kind::fault || target_->signs().stop.cause != StopCause::none) {
         fail_by(end.why);
         return;
     }
@@ -250,7 +248,7 @@ Alarm LiveMachine::trouble_alarm() const {
 
 // As the target says what has stopped it; else its drives have.
 void LiveMachine::fail_by(const std::string& sentence) {
-    const RunTarget::Stop stop = target_->stopped_by();
+    const RunTarget::Stop stop = target_->signs().stop;
     if (stop.cause == StopCause::none) {
         fail(sentence);
     } else {
@@ -264,7 +262,7 @@ void LiveMachine::fail(const std::string& sentence, Alarm alarm) {
         ends_ = true;
         return;
     }
-    const bool looks = phase_ == Phase::ready || !target_->has_feedback();
+    const bool looks = phase_ == Phase::ready || !facts_.has_feedback;
     phase_ = Phase::failed;
     try {
         static_cast<void>(looks && look_where(true));
@@ -378,7 +376,7 @@ void LiveMachine::end() noexcept {
             add(error.what());
         }
     };
-    const bool began = phase_ == Phase::ready || phase_ == Phase::failed || (serves() && !target_->has_feedback());
+    const bool began = phase_ == Phase::ready || phase_ == Phase::failed || (serves() && !facts_.has_feedback);
     std::vector<RunTarget::AxisPlace> places;
     feed_->end_outputs();
     if (!serves()) {
@@ -390,7 +388,7 @@ void LiveMachine::end() noexcept {
             places = target_->places();
             where_ = target_->where() + on_line(reached().line);
         });
-        step([&] { add(target_->finish()); });
+        step([&] { add(target_->leave(false)); });
     }
     step([&] { add(outputs_end()); });
     {

@@ -153,9 +153,11 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
     }
     case hal::PortPhase::halted: return MotionEnd{MotionEnd::Kind::halted, or_unsaid(target_->halted(obeyed_ > 1))};
     case hal::PortPhase::idle:
-        return completed ? std::optional(MotionEnd{MotionEnd::Kind::complete,
-                                                   target_->achieved() ? std::string() : target_->holds()})
-                         : std::nullopt;
+        if (completed) {
+            const RunTarget::Signs signs = target_->signs();
+            return MotionEnd{MotionEnd::Kind::complete, signs.achieved ? std::string() : signs.holds};
+        }
+        break;
     case hal::PortPhase::running: break;
     }
     return std::nullopt;
@@ -180,7 +182,7 @@ std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
     try {
         ask(requests);
         state = port_->poll();
-        hold_asked_.store(!target_->holds().empty());
+        hold_asked_.store(!target_->signs().holds.empty());
         if (hands_over) {
             hand_over();
         }

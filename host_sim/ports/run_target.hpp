@@ -33,6 +33,29 @@ struct SwitchFacts {
     std::string no_home;     ///< of axes that find none, what would be right; empty: the controller's own sentence
 };
 
+/// What of a target does not change while it lives.
+struct TargetFacts {
+    double least_segment_us = 0.0; ///< duration of the shortest segments that it accepts
+    bool resamples = false;        ///< a run may have longer segments than those of the machine file
+    /// Its drives can be asked where they stand. false: what was told is all that is known, and they stay connected.
+    bool has_feedback = true;
+    bool halts = false; ///< halt() of the port stops the drives sooner than the plan could brake; else it asks for that
+    /// With less motion than this in the port it may slow down by itself, unless that is the end.
+    std::uint64_t least_ahead_us = 20'000;
+    /// The axes that search together with each, by bits: a drive homes all of its own. None: it finds no reference.
+    PerAxis<std::uint32_t> homes_with{};
+    SwitchFacts switches{};
+    std::string note{}; ///< one line that the user should read before anything moves; empty: nothing
+
+    [[nodiscard]] std::uint32_t search_of(std::uint32_t axes) const noexcept {
+        std::uint32_t out = 0;
+        for (const unsigned k : indices(max_axes)) {
+            out |= (axes >> k & 1U) != 0 ? homes_with[k] : 0U;
+        }
+        return out;
+    }
+};
+
 /// A target that cannot be used: nothing has moved. The tool then exits with status 1.
 struct TargetError : TextError {
     using TextError::TextError;
@@ -49,7 +72,7 @@ enum class StartWay : std::uint8_t {
 struct RunOptions {
     bool reset = false;                   ///< faults of the drives are reset first
     bool home = false;                    ///< the axes find their references before the run moves
-    std::uint32_t home_axes = UINT32_MAX; ///< which, by bits: RunTarget::homes_with
+    std::uint32_t home_axes = UINT32_MAX; ///< which, by bits: TargetFacts::homes_with
     std::uint32_t placed = UINT32_MAX; ///< axes that stand where prepare() begins, by bits; of others it says nothing
     bool probe = false;                ///< the run ends, held on the path, when the probe touches
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
@@ -77,79 +100,59 @@ public:
         friend bool operator==(const AxisPlace&, const AxisPlace&) = default;
     };
 
-    RunTarget() = default;
-    RunTarget(const RunTarget&) = delete;
-    RunTarget& operator=(const RunTarget&) = delete;
-    virtual ~RunTarget() = default;
-
-    /// Duration of the shortest segments that the target accepts. [us]
-    [[nodiscard]] virtual double least_segment_us() const noexcept = 0;
-    /// Whether a run may have longer segments than those of the machine file.
-    [[nodiscard]] virtual bool resamples() const noexcept = 0;
-    /// Before planning: lowers limits of the machine that its drives cannot follow. Returns one line that says what was
-    /// lowered; empty: nothing.
-    [[nodiscard]] virtual std::string fit(MachineDescription& /*machine*/) const { return {}; }
-    /// Checks that the target can carry the machine's velocities and positions in segments of this duration. Throws
-    /// UsageError with the axis, its value and the range; nothing has moved.
-    virtual void check(const MachineDescription& /*machine*/, double /*segment_us*/) const {}
-    /// One line that the user should read before anything moves; empty: nothing.
-    [[nodiscard]] virtual std::string note() const { return {}; }
-
-    /// All motion is its own, from prepare(), which ends early if SignalWatch::interrupts() grows, to close(). That one
-    /// is called before the process ends without destructors, too: drives and lines are then in their final state.
-    [[nodiscard]] virtual hal::MotionPort& port() noexcept = 0;
-    /// Why the plan has to be held on its path, and ends there; empty: it has not. If the planner does not deliver the
-    /// way to standstill in time, the target deals with it: its port then becomes halted.
-    [[nodiscard]] virtual std::string holds() const { return {}; }
-    /// Whether this hold was the purpose of the run.
-    [[nodiscard]] virtual bool achieved() const { return false; }
-
-    // For a machine that is served:
-
-    /// What prepare() does from now on, of home and reset.
-    virtual void set_ready(const RunOptions& /*options*/) {}
-    /// Comes before open(), which connects anew. Drives that cannot be asked where they stand stay on, and watched.
-    virtual void disconnect() { port().close(); }
-    /// Whether its drives can be asked where they stand. false: what was told is all that is known.
-    [[nodiscard]] virtual bool has_feedback() const noexcept { return true; }
     /// What stops the machine now, whether it moves or not, and the sentence about it.
     struct Stop {
         StopCause cause = StopCause::none;
         std::string why{};
     };
-    [[nodiscard]] virtual Stop stopped_by() { return {}; }
-    /// The axes that search together with these, by bits: a drive homes all of its own.
-    [[nodiscard]] virtual std::uint32_t homes_with(std::uint32_t axes) const { return axes; }
-    /// Behind prepare() that has homed: where axes stand that have searched. One that it does not name stands at 0.
-    [[nodiscard]] virtual std::vector<AxisPlace> references() const { return {}; }
-    /// Of switches, what they are for, and which act now. Axes are bits.
-    [[nodiscard]] virtual SwitchFacts switch_facts() const { return {}; }
+    /// Axes are bits.
     struct Switches {
         std::uint32_t limits = 0;
         bool probe = false;
         bool e_stop = false;
         std::optional<PerAxis<double>> touched_mm{}; ///< where the probe changed as watch_probe() asked
     };
-    [[nodiscard]] virtual Switches switches() { return {}; }
+    /// What it shows at a look.
+    struct Signs {
+        /// Why the plan has to be held on its path, and ends there; empty: it has not. If the planner does not deliver
+        /// the way to standstill in time, the target deals with it: its port then becomes halted.
+        std::string holds{};
+        bool achieved = false; ///< this hold was the purpose of the run
+        Stop stop{};
+        Switches switches{};
+    };
+
+    RunTarget() = default;
+    RunTarget(const RunTarget&) = delete;
+    RunTarget& operator=(const RunTarget&) = delete;
+    virtual ~RunTarget() = default;
+
+    /// What of it does not change while it lives.
+    [[nodiscard]] virtual TargetFacts facts() const = 0;
+    /// Before planning: lowers limits of the machine that its drives cannot follow. Returns one line that says what was
+    /// lowered; empty: nothing.
+    [[nodiscard]] virtual std::string fit(MachineDescription& /*machine*/) const { return {}; }
+    /// Checks that the target can carry the machine's velocities and positions in segments of this duration. Throws
+    /// UsageError with the axis, its value and the range; nothing has moved.
+    virtual void check(const MachineDescription& /*machine*/, double /*segment_us*/) const {}
+
+    /// All motion is its own, from prepare(), which ends early if SignalWatch::interrupts() grows, to close(). That one
+    /// is called before the process ends without destructors, too: drives and lines are then in their final state.
+    [[nodiscard]] virtual hal::MotionPort& port() noexcept = 0;
+    /// What prepare() does from now on, of home and reset.
+    virtual void set_ready(const RunOptions& /*options*/) {}
+    /// Each millisecond, also while it stands.
+    [[nodiscard]] virtual Signs signs() { return {}; }
     /// From now on the next contact of the probe, or the loss of it, is noted with its place.
     virtual void watch_probe(bool /*away*/) {}
-    /// Whether halt() of the port stops the drives sooner than the plan could brake; else it asks for that: holds().
-    [[nodiscard]] virtual bool halts() const noexcept { return false; }
-    /// With less motion than this in the port it may slow down by itself, unless that is the end. [us]
-    [[nodiscard]] virtual std::uint64_t least_ahead_us() const noexcept { return 20'000; }
 
     /// A failure of the port for the user, and what else is not as it should be.
     [[nodiscard]] virtual std::string sentence(const hal::PortFailure& failure) const { return failure.what; }
     /// How the axes were stopped by halt() or quick_stop() of the port.
     [[nodiscard]] virtual std::string halted(bool quick) const = 0;
-    /// Switches drives off that stand. Returns what was not confirmed.
-    [[nodiscard]] virtual std::string switch_off() {
-        port().power_off();
-        return {};
-    }
-    /// Called once, when a motion that prepare() began is over, for any reason. Drives that stand are left in the state
-    /// that the machine file requires (drives_at_end). Returns one line with everything that was not confirmed.
-    [[nodiscard]] virtual std::string finish() = 0;
+    /// Drives that stand are left in the state that the machine file requires (drives_at_end), or off. Returns one line
+    /// with everything that was not confirmed. @param off  whatever the file says: they sleep, and more motion may come
+    [[nodiscard]] virtual std::string leave(bool off) = 0;
 
     /// Of every axis that the target moves, after prepare(). Empty: no axis has moved, nor been told to; what was known
     /// of its place before is still true.

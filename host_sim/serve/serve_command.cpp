@@ -68,7 +68,7 @@ int run_serve(const ServeArguments& arguments) {
     const TargetKind& kind = target_kind(arguments.target);
     const std::unique_ptr<RunTarget, DeleteInTime> target(
         kind.make(arguments.target, machine.machine, {.interrupted = &LiveMachine::gives_up}).release());
-    if (kind.is_real && !target->has_feedback()) {
+    if (kind.is_real && !target->facts().has_feedback) {
         tell_note(note_unknown(begins, machine.machine, live_settings.told_mm));
     }
     live_settings.simulates = !kind.is_real;
@@ -80,7 +80,7 @@ int run_serve(const ServeArguments& arguments) {
     live_settings.state = state ? &*state : nullptr;
     LiveMachine live(*target, machine.machine, live_settings,
                      [&] { return make_outputs(machine.machine, arguments.target); });
-    const SwitchFacts switches = target->switch_facts();
+    const SwitchFacts switches = target->facts().switches;
     const ControllerSettings settings = serve_settings(machine, switches);
     ServedMotion motion(machine.machine, settings);
     Server server(settings, motion, live, state ? &*state : nullptr, begins, console);

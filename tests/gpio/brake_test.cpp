@@ -58,7 +58,7 @@ TEST_CASE("the brake is released when the drives hold the axes, and engaged befo
     CHECK(step_ns >= free_ns + 30 * ns_per_ms);
     CHECK(step_ns < free_ns + 60 * ns_per_ms);
     const std::size_t rows = lines.rows().size();
-    CHECK(static_cast<RunTarget&>(*bench.target).finish().empty());
+    CHECK(static_cast<RunTarget&>(*bench.target).leave(false).empty());
     const std::uint64_t held_ns = bench.first_ns([&](std::uint64_t levels) { return !lines.released(levels); }, rows);
     const std::uint64_t off_ns = bench.first_ns([&](std::uint64_t levels) { return !lines.enabled(levels); }, rows);
     REQUIRE(off_ns != UINT64_MAX);
@@ -78,7 +78,7 @@ TEST_CASE("an e-stop engages the brake in the call that switches the drives off"
     CHECK(was_free);
     CHECK_FALSE(lines.enabled());
     const std::uint64_t before_ns = bench.clock.now_ns();
-    CHECK(static_cast<RunTarget&>(*bench.target).finish().empty());
+    CHECK(static_cast<RunTarget&>(*bench.target).leave(false).empty());
     CHECK(bench.clock.now_ns() < before_ns + 2 * ns_per_ms); // nothing to wait for
 }
 
@@ -87,14 +87,14 @@ TEST_CASE("drives on lines stay on where the machine file says so, and the machi
     Bench bench(true);
     SECTION("behind a whole run") {
         CHECK(bench.run() == hal::PortPhase::idle);
-        CHECK(static_cast<RunTarget&>(*bench.target).finish().empty());
+        CHECK(static_cast<RunTarget&>(*bench.target).leave(false).empty());
         CHECK(bench.lines->kept());
         CHECK(bench.lines->enabled());
         CHECK(bench.lines->released(bench.lines->rows().back().levels));
     }
     SECTION("but not behind an e-stop") {
         CHECK(bench.run(200.0, [&] { bench.lines->drive(e_stop, true); }) == hal::PortPhase::fault);
-        CHECK(static_cast<RunTarget&>(*bench.target).finish().empty());
+        CHECK(static_cast<RunTarget&>(*bench.target).leave(false).empty());
         CHECK_FALSE(bench.lines->kept());
         CHECK_FALSE(bench.lines->enabled());
     }

@@ -51,5 +51,5 @@ TEST_CASE("a motion that begins elsewhere than where its axis stands is refused"
     CHECK(motions.move(0, 10 * units_per_count) == hal::PortPhase::idle);
     CHECK(motions.move(9 * units_per_count, 0) == hal::PortPhase::halted);
     CHECK(motions.x_counts() == 10.0);
-    CHECK(motions.run_target().stopped_by().why == "axis x stands at 0.125 mm, and its motion begins at 0.1125 mm");
+    CHECK(motions.run_target().signs().stop.why == "axis x stands at 0.125 mm, and its motion begins at 0.1125 mm");
 }

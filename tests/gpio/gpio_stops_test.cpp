@@ -97,7 +97,7 @@ Outcome run_of(Bench& bench, const Story& story) {
     }
     outcome.why = outcome.phase == hal::PortPhase::fault    ? port.failure().what
                   : outcome.phase == hal::PortPhase::halted ? run.target.halted(twice)
-                                                            : run.target.holds();
+                                                            : run.target.signs().holds;
     outcome.standstill_ms = std::max(0.0, bench.last_step_ms() - caused_ms);
     outcome.over_ms = bench.now_ms() - caused_ms;
     const std::size_t rows = bench.lines->rows().size();

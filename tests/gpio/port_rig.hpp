@@ -102,7 +102,7 @@ public:
     }
     /// With a planner that is blocked nothing is delivered.
     splinefeed::hal::PortPhase tick(bool delivers = true) {
-        if (!target.holds().empty()) {
+        if (!target.signs().holds.empty()) {
             motion_.hold();
         }
         while (delivers && next_ && port.room() > 0 && port.submit(*next_)) {

@@ -73,7 +73,7 @@ public:
         target = std::make_unique<splinefeed::host::GpioTarget>(
             std::move(map), std::move(own_lines), machine,
             splinefeed::host::RunOptions{.interrupted = &splinefeed::host::LiveMachine::gives_up}, &clock);
-        switches_ = target->switch_facts();
+        switches_ = target->facts().switches;
         settings = splinefeed::host::serve_settings(run_machine_, switches_);
         motion_ = std::make_unique<splinefeed::host::ServedMotion>(machine, settings);
         served = std::make_unique<splinefeed::host::LiveMachine>(

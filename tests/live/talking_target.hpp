@@ -70,25 +70,25 @@ public:
 
     explicit TalkingTarget(TalkingWorld& world) : Talking(world) {}
 
-    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
-    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] TargetFacts facts() const override {
+        TargetFacts out{.has_feedback = !world_->is("blind"), .halts = !world_->is("brakes"), .homes_with = {1, 2, 4}};
+        out.switches = {.homes = static_cast<std::uint32_t>(world_->number("homes", 7)), .no_home = {}};
+        return out;
+    }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
-    [[nodiscard]] std::string holds() const override {
-        throw_where("breaks");
-        return world_->text("holds");
-    }
-    [[nodiscard]] bool achieved() const override { return world_->is("achieves"); }
     void set_ready(const RunOptions& options) override { options_ = options; }
-    [[nodiscard]] bool has_feedback() const noexcept override { return !world_->is("blind"); }
-    [[nodiscard]] Stop stopped_by() override {
-        return {static_cast<StopCause>(world_->number("cause", 0)), "it says so"};
+    [[nodiscard]] Signs signs() override {
+        throw_where("breaks");
+        return {.holds = world_->text("holds"),
+                .achieved = world_->is("achieves"),
+                .stop = {static_cast<StopCause>(world_->number("cause", 0)), "it says so"}};
     }
-    [[nodiscard]] SwitchFacts switch_facts() const override {
-        return {.homes = static_cast<std::uint32_t>(world_->number("homes", 7)), .no_home = {}};
-    }
-    [[nodiscard]] bool halts() const noexcept override { return !world_->is("brakes"); }
     [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
-    [[nodiscard]] std::string finish() override {
+    [[nodiscard]] std::string leave(bool off) override {
+        if (off) {
+            power_off();
+            return {};
+        }
         world_->say("finish");
         return world_->text("unfinished");
     }

@@ -113,10 +113,18 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
     }
 }
 
-std::string GpioTarget::note() const {
-    return missing_.empty()
-               ? missing_
-               : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
+TargetFacts GpioTarget::facts() const {
+    constexpr std::uint64_t on_its_way_us = 8'000; // from the plan to the port, by two threads
+    TargetFacts out{.has_feedback = false, .least_ahead_us = port_.steps().reserve_us() + on_its_way_us};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.homes_with[k] = map_->home[k] ? 1U << k : 0U;
+    }
+    out.switches = switch_facts();
+    out.switches.homes = out.search_of(UINT32_MAX);
+    if (!missing_.empty()) {
+        out.note = "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
+    }
+    return out;
 }
 
 void GpioTarget::set_ready(const RunOptions& options) {
@@ -143,12 +151,6 @@ std::string GpioTarget::halted(bool quick) const {
                           : " (by the port: the plan did not bring the way to standstill in time)");
 }
 
-RunTarget::Stop GpioTarget::stopped_by() {
-    const hal::gpio::GpioHold stop = port_.stopped_by();
-    const CauseWords& words = words_of(stop.cause);
-    return {words.stop, stop.what + words.when_served};
-}
-
 // For the summary.
 void GpioTarget::note(const hal::gpio::InputChange& change, const std::optional<PerAxis<double>>& mm) {
     const hal::gpio::MappedInput& input = map_->inputs[change.input];
@@ -171,12 +173,8 @@ std::optional<double> GpioTarget::place(int axis) const {
 
 // Nothing on step lines knows it but the steps that were made; behind homing they are moved.
 std::vector<RunTarget::AxisPlace> GpioTarget::standing() {
-    return port_.orders().home ? std::vector<AxisPlace>() : references();
-}
-
-std::vector<RunTarget::AxisPlace> GpioTarget::references() const {
     std::vector<AxisPlace> out;
-    for (int k = 0; k < machine_->settings.axes; ++k) {
+    for (int k = 0; !port_.orders().home && k < machine_->settings.axes; ++k) {
         out.push_back({static_cast<unsigned>(k), port_.position_known() ? place(k) : std::nullopt});
     }
     return out;
@@ -210,17 +208,8 @@ std::string GpioTarget::where() const {
     return text.text();
 }
 
-std::uint32_t GpioTarget::homes_with(std::uint32_t axes) const {
-    std::uint32_t out = 0;
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        out |= map_->home[k] ? axes & (1U << k) : 0U;
-    }
-    return out;
-}
-
 SwitchFacts GpioTarget::switch_facts() const {
     SwitchFacts out;
-    out.homes = homes_with(UINT32_MAX);
     for (const hal::gpio::MappedInput& input : map_->inputs) {
         out.probe = out.probe || input.role == InputRole::probe;
         if (input.role == InputRole::limit) {
@@ -243,23 +232,23 @@ SwitchFacts GpioTarget::switch_facts() const {
     return out;
 }
 
-RunTarget::Switches GpioTarget::switches() {
+RunTarget::Signs GpioTarget::signs() {
     port_.take_changes();
-    Switches out{.touched_mm = port_.touched_mm()};
+    const hal::gpio::GpioHold stop = port_.stopped_by();
+    const CauseWords& words = words_of(stop.cause);
+    Signs out{.holds = holds(),
+              .achieved = port_.hold().cause == GpioCause::touched,
+              .stop = {words.stop, stop.what + words.when_served},
+              .switches = {.touched_mm = port_.touched_mm()}};
     for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
         const hal::gpio::MappedInput& input = map_->inputs[i];
         if (port_.inputs().active(i)) {
-            out.limits |= input.role == InputRole::limit ? 1U << static_cast<unsigned>(input.axis) : 0U;
-            out.probe = out.probe || input.role == InputRole::probe;
-            out.e_stop = out.e_stop || input.role == InputRole::e_stop;
+            out.switches.limits |= input.role == InputRole::limit ? 1U << static_cast<unsigned>(input.axis) : 0U;
+            out.switches.probe = out.switches.probe || input.role == InputRole::probe;
+            out.switches.e_stop = out.switches.e_stop || input.role == InputRole::e_stop;
         }
     }
     return out;
-}
-
-std::uint64_t GpioTarget::least_ahead_us() const noexcept {
-    constexpr std::uint64_t on_its_way_us = 8'000; // from the plan to the port, by two threads
-    return port_.steps().reserve_us() + on_its_way_us;
 }
 
 void GpioTarget::describe(Summary& summary) const {

@@ -18,36 +18,24 @@ public:
     GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<hal::gpio::MachineLines> lines,
                const MachineDescription& machine, const RunOptions& options, hal::Clock* clock = nullptr);
 
-    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
-    [[nodiscard]] bool resamples() const noexcept override { return false; }
-    [[nodiscard]] std::string note() const override;
+    [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    [[nodiscard]] std::vector<AxisPlace> standing() override;
-    [[nodiscard]] std::vector<AxisPlace> places() const override;
-    [[nodiscard]] std::string where() const override;
-    void describe(Summary& summary) const override;
-    [[nodiscard]] std::string holds() const override;
-    [[nodiscard]] bool achieved() const override { return port_.hold().cause == hal::gpio::GpioCause::touched; }
+    void set_ready(const RunOptions& options) override;
+    [[nodiscard]] Signs signs() override;
+    void watch_probe(bool away) override { port_.watch_probe(away); }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return failure.what + (failure.remedy == hal::Remedy::home ? " (--home)" : "");
     }
     [[nodiscard]] std::string halted(bool quick) const override;
-    [[nodiscard]] std::string finish() override { return port_.leave(); }
-
-    void set_ready(const RunOptions& options) override;
-    /// What is on stays on, and the e-stop acts.
-    void disconnect() override {}
-    [[nodiscard]] bool has_feedback() const noexcept override { return false; }
-    [[nodiscard]] Stop stopped_by() override;
-    [[nodiscard]] std::uint32_t homes_with(std::uint32_t axes) const override;
-    [[nodiscard]] std::vector<AxisPlace> references() const override;
-    [[nodiscard]] SwitchFacts switch_facts() const override;
-    [[nodiscard]] Switches switches() override;
-    void watch_probe(bool away) override { port_.watch_probe(away); }
-    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override;
-    [[nodiscard]] std::string switch_off() override { return port_.switch_off(); }
+    [[nodiscard]] std::string leave(bool off) override { return off ? port_.switch_off() : port_.leave(); }
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
+    [[nodiscard]] std::string where() const override;
+    void describe(Summary& summary) const override;
 
 private:
+    [[nodiscard]] std::string holds() const;
+    [[nodiscard]] SwitchFacts switch_facts() const;
     [[nodiscard]] std::optional<double> place(int axis) const;
     void note(const hal::gpio::InputChange& change, const std::optional<PerAxis<double>>& mm);
 

@@ -57,6 +57,14 @@ protected:
         const double mm = home_ ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
         return {axis, home_ || placed ? std::optional(mm) : std::nullopt};
     }
+    /// Of all drives on Modbus, each axis with a home of its own.
+    [[nodiscard]] TargetFacts drive_facts() const {
+        TargetFacts out{.halts = true, .least_ahead_us = 220'000};
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            out.homes_with[k] = 1U << k;
+        }
+        return out;
+    }
     /// Without homing nothing moves before the port is ready.
     [[nodiscard]] bool may_have_moved() const noexcept { return home_ || port_.referenced(); }
 
@@ -80,22 +88,17 @@ private:
         home_ = options.home;
         port_.set_ready(options.home, options.reset, options.home_axes);
     }
-    [[nodiscard]] bool halts() const noexcept override { return true; }
-    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override { return 220'000; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return drive_sentence(table_, failure) + unconfirmed_drives(stopped());
     }
     [[nodiscard]] std::string halted(bool quick) const override { return stop_sentence(stopped(), quick); }
-    [[nodiscard]] std::string finish() override {
-        if (!machine_->drives_on_at_end.value_or(true)) {
-            return switch_off();
+    [[nodiscard]] std::string leave(bool off) override {
+        if (off || !machine_->drives_on_at_end.value_or(true)) {
+            port_.power_off();
+            return not_switched_off(stopped());
         }
         const std::string moving = unconfirmed_drives(stopped());
         return moving.empty() ? moving : moving.substr(2);
-    }
-    [[nodiscard]] std::string switch_off() override {
-        port_.power_off();
-        return not_switched_off(stopped());
     }
 };
 

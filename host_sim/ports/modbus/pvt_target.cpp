@@ -65,8 +65,21 @@ PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const 
     least_segment_us_ = port_.least_segment_us();
 }
 
-bool PvtTarget::resamples() const noexcept {
-    return std::ranges::all_of(table_.drives, [](const DriveTable::Drive& drive) { return drive.address.resample; });
+TargetFacts PvtTarget::facts() const {
+    TargetFacts out = drive_facts();
+    out.least_segment_us = least_segment_us_;
+    out.resamples =
+        std::ranges::all_of(table_.drives, [](const DriveTable::Drive& drive) { return drive.address.resample; });
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        std::uint32_t of_drive = 0;
+        for (const PvtAxis& axis : port_.wiring(i).axes) {
+            of_drive |= axis.machine_axis >= 0 ? 1U << static_cast<unsigned>(axis.machine_axis) : 0U;
+        }
+        for (const unsigned k : indices(machine_->settings.axes)) {
+            out.homes_with[k] = (of_drive >> k & 1U) != 0 ? of_drive : out.homes_with[k];
+        }
+    }
+    return out;
 }
 
 std::vector<RunTarget::AxisPlace> PvtTarget::standing() {
@@ -79,17 +92,6 @@ std::vector<RunTarget::AxisPlace> PvtTarget::standing() {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
                 out.push_back(standing_place(axis, counts_of(i, k), port_.placed(i)));
             }
-        }
-    }
-    return out;
-}
-
-std::uint32_t PvtTarget::homes_with(std::uint32_t axes) const {
-    std::uint32_t out = 0;
-    for (std::size_t i = 0; i < port_.drives(); ++i) {
-        for (const PvtAxis& axis : port_.wiring(i).axes) {
-            const bool homes = axis.machine_axis >= 0 && port_.wiring(i).moves_one_of(axes);
-            out |= homes ? 1U << static_cast<unsigned>(axis.machine_axis) : 0U;
         }
     }
     return out;

@@ -22,9 +22,7 @@ public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
     PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
 
-    [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
-    [[nodiscard]] bool resamples() const noexcept override;
-    [[nodiscard]] std::uint32_t homes_with(std::uint32_t axes) const override;
+    [[nodiscard]] TargetFacts facts() const override;
     void check(const MachineDescription& machine, double segment_us) const override {
         check_pvt_range(machine, segment_us);
     }

@@ -137,24 +137,22 @@ std::size_t SetpointTarget::axis_of(std::size_t drive) const noexcept {
     return static_cast<std::size_t>(table_.drives[drive].machine_axis.front());
 }
 
-std::string SetpointTarget::note() const {
+// Targets are computed from the path at any instant, so segments may be as short as wanted.
+TargetFacts SetpointTarget::facts() const {
+    TargetFacts out = drive_facts();
+    out.resamples = true;
+    out.switches = {.homes = 0, .no_home = "the profile of its drive has no command home; home it by its own means"};
     double sum_sq = 0.0;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
-        const AxisSettings& axis = machine_->settings.axis[axis_of(i)];
-        const double most = port_.deviation_bound_counts(i) / axis.steps_per_mm;
+        const auto axis = static_cast<unsigned>(axis_of(i));
+        const double most = port_.deviation_bound_counts(i) / machine_->settings.axis[axis].steps_per_mm;
         sum_sq += most * most;
-    }
-    return fmt::format("the drives get a target position every {:.2f} ms; between two targets the machine may be up to "
-                       "{:.1f} um off the path",
-                       port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
-}
-
-SwitchFacts SetpointTarget::switch_facts() const {
-    SwitchFacts out{.homes = 0, .no_home = "the profile of its drive has no command home; home it by its own means"};
-    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const bool homes = !table_.drives[i].profile.steps_of(hal::modbus::DriveCommand::home).empty();
-        out.homes |= homes ? 1U << static_cast<unsigned>(axis_of(i)) : 0U;
+        out.switches.homes |= homes ? 1U << axis : 0U;
     }
+    out.note = fmt::format("the drives get a target position every {:.2f} ms; between two targets the machine may be up "
+                           "to {:.1f} um off the path",
+                           port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
     return out;
 }
 

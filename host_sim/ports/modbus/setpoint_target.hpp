@@ -28,15 +28,11 @@ public:
     /// interpolate
     SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
 
-    // Targets are computed from the path at any instant, so segments may be as short as wanted.
-    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
-    [[nodiscard]] bool resamples() const noexcept override { return true; }
+    [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] std::string fit(MachineDescription& machine) const override { return fit_to_ramps(table_, machine); }
     void check(const MachineDescription& machine, double /*segment_us*/) const override {
         check_register_ranges(table_, machine, port_.period_us());
     }
-    [[nodiscard]] std::string note() const override;
-    [[nodiscard]] SwitchFacts switch_facts() const override;
     [[nodiscard]] std::vector<AxisPlace> standing() override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     void describe(Summary& summary) const override;

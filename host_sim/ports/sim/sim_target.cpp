@@ -18,6 +18,14 @@ constexpr std::uint64_t give_up_every_us = 1000;
 
 } // namespace
 
+TargetFacts SimTarget::facts() const {
+    TargetFacts out{.has_feedback = false, .least_ahead_us = dry_us, .switches = {.probe = true, .no_home = {}}};
+    for (const unsigned k : indices(machine_->settings.axes)) {
+        out.homes_with[k] = 1U << k;
+    }
+    return out;
+}
+
 hal::PortFailure SimTarget::prepare(const FeedSegment& first) {
     for (const std::uint64_t end_us = clock_->now_us() + homing_us; options_.home && clock_->now_us() < end_us;) {
         if (options_.interrupted()) {

@@ -23,16 +23,11 @@ public:
               hal::Clock& clock = hal::system_clock()) noexcept
         : machine_(&machine), options_(options), clock_(&clock) {}
 
-    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
-    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
     void set_ready(const RunOptions& options) override { options_ = options; }
-    void disconnect() override {}
-    [[nodiscard]] bool has_feedback() const noexcept override { return false; }
-    [[nodiscard]] SwitchFacts switch_facts() const override { return {.probe = true, .no_home = {}}; }
-    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept override { return dry_us; }
     [[nodiscard]] std::string halted(bool quick) const override;
-    [[nodiscard]] std::string finish() override { return {}; }
+    [[nodiscard]] std::string leave(bool /*off*/) override { return {}; }
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     [[nodiscard]] std::string where() const override;
     void describe(Summary& /*summary*/) const override {}
