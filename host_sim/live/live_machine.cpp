@@ -31,7 +31,7 @@ std::atomic<bool> LiveMachine::gives_up_{false};
 LiveMachine::LiveMachine(RunTarget& target, const MachineDescription& machine, const Settings& settings,
                          MakeOutputs outputs)
     : target_(&target), machine_(&machine), settings_(settings), make_outputs_(std::move(outputs)),
-      outputs_(make_outputs_().release()), reads_inputs_(outputs_ != nullptr && outputs_->reads_inputs()) {
+      outputs_(make_outputs_().release()) {
     facts_ = target.facts();
     feed_.emplace(target, outputs_.get(), settings.record, *settings.clock);
     gives_up_.store(false);
@@ -236,7 +236,7 @@ void LiveMachine::obey(const ProgramEvent& event) noexcept {
 }
 
 bool LiveMachine::has_input(std::int32_t number) const noexcept {
-    return reads_inputs_ && machine_->lines.input(number) != nullptr;
+    return !settings_.simulates && machine_->lines.has(EventKind::input_wait, number);
 }
 
 bool LiveMachine::has_output(EventKind kind, std::int32_t number) const noexcept {
@@ -244,8 +244,7 @@ bool LiveMachine::has_output(EventKind kind, std::int32_t number) const noexcept
 }
 
 void LiveMachine::forget_input() noexcept {
-    constexpr std::int32_t none = -1;
-    feed_->order({.kind = EventKind::input_wait, .number = none, .text = {}}, false);
+    feed_->order({.kind = EventKind::input_wait, .number = ProgramOutputs::none, .text = {}}, false);
 }
 
 void LiveMachine::watch_probe(bool away) noexcept {

@@ -239,7 +239,6 @@ private:
     TargetFacts facts_{};
     MakeOutputs make_outputs_;
     std::unique_ptr<ProgramOutputs, DeleteInTime> outputs_;
-    bool reads_inputs_ = false;       // outputs_ do
     std::uint32_t unlocked_axes_ = 0; // that stand where they are told to when the operator moves them: the others home
     std::optional<TargetFeed> feed_;
     // Of the planner's thread:

@@ -6,29 +6,22 @@
 #include "host_sim/ports/sim/sim_target.hpp"
 #include "host_sim/ports/target_table.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace splinefeed::host {
 
 std::unique_ptr<ProgramOutputs> make_outputs(const MachineDescription& machine, const std::string& target) {
+    OutputParts parts;
     if (!target_kind(target).is_real) {
-        return std::make_unique<ProgramOutputs>(
-            machine.spindle ? std::make_unique<SimSpindle>(*machine.spindle) : nullptr, ProgramOutputs::Switches{});
+        if (machine.spindle) {
+            parts.push_back(std::make_shared<SimSpindle>(*machine.spindle));
+        }
+    } else {
+        parts = make_line_outputs(machine);
+        std::ranges::move(make_modbus_outputs(machine, target), std::back_inserter(parts));
     }
-    std::unique_ptr<RunSpindle> spindle;
-    ProgramOutputs::Switches switches;
-    ProgramOutputs::Inputs inputs;
-    OutputParts parts[] = {make_line_outputs(machine), make_modbus_outputs(machine, target)};
-    for (OutputParts& some : parts) {
-        if (some.spindle != nullptr) {
-            spindle = std::move(some.spindle);
-        }
-        if (some.switches != nullptr) {
-            switches.push_back(std::move(some.switches));
-        }
-        if (some.inputs != nullptr) {
-            inputs.push_back(std::move(some.inputs));
-        }
-    }
-    return std::make_unique<ProgramOutputs>(std::move(spindle), std::move(switches), std::move(inputs));
+    return std::make_unique<ProgramOutputs>(std::move(parts));
 }
 
 } // namespace splinefeed::host

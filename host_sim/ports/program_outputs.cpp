@@ -26,82 +26,78 @@ std::optional<int> InputQuestion::take(bool active, std::uint64_t asked_us) noex
     return asked_us >= until_us_ ? std::optional(timed_out) : std::nullopt;
 }
 
-void ProgramOutputs::act(const ProgramAction& action) {
-    if (action.spindle && spindle_ != nullptr) {
-        spindle_->order(action.spindle->direction, action.spindle->rpm);
-    }
-    if (RunSwitches::is_of(action.kind)) {
-        for (const auto& switches : switches_) {
-            switches->act(action.kind, action.number);
-        }
-    }
-    if (action.kind == EventKind::input_wait) {
-        ask(action);
+bool ProgramOutputs::is_of(const ProgramAction& action) noexcept {
+    switch (action.kind) {
+    case EventKind::mist_on:
+    case EventKind::flood_on:
+    case EventKind::coolant_off:
+    case EventKind::output_on_with_motion:
+    case EventKind::output_off_with_motion:
+    case EventKind::output_on:
+    case EventKind::output_off: return true;
+    default: return action.spindle.has_value();
     }
 }
 
 // What an operator switches meanwhile is no answer: only another question ends one.
-void ProgramOutputs::ask(const ProgramAction& action) {
-    end_question();
-    for (const auto& inputs : inputs_) {
-        if (inputs->watch(action.number)) {
-            asked_ = inputs.get();
+void ProgramOutputs::act(const ProgramAction& action) {
+    if (action.kind == EventKind::input_wait) {
+        question_.reset();
+        asks_.store(action.number >= 0);
+        if (action.number >= 0) {
             question_.emplace(action.wait, action.value, clock_->now_us());
-            asks_.store(true);
-            return;
         }
     }
-}
-
-void ProgramOutputs::end_question() {
-    if (question_) {
-        asked_->unwatch();
-        question_.reset();
-        asks_.store(false);
+    for (const auto& part : parts_) {
+        part->act(action);
     }
 }
 
 void ProgramOutputs::update() {
-    if (spindle_ != nullptr) {
-        spindle_->update();
+    std::optional<InputReading> reading;
+    for (const auto& part : parts_) {
+        part->update();
+        reading = reading ? reading : part->take();
     }
-    if (!question_) {
-        return;
-    }
-    const auto reading = asked_->take();
-    const auto answer = reading ? question_->take(reading->active, reading->asked_us) : std::nullopt;
+    const auto answer = question_ && reading ? question_->take(reading->active, reading->asked_us) : std::nullopt;
     if (answer) {
         answer_.store(*answer);
-        end_question();
+        act({.kind = EventKind::input_wait, .number = none, .text = {}});
     }
 }
 
 void ProgramOutputs::end() {
     std::uint64_t not_yet = 0;
     ended_us_.compare_exchange_strong(not_yet, clock_->now_us());
-    if (spindle_ != nullptr) {
-        spindle_->end();
-    }
-    for (const auto& switches : switches_) {
-        switches->end();
+    for (const auto& part : parts_) {
+        part->end();
     }
 }
 
-std::string ProgramOutputs::trouble() const {
-    std::string what = spindle_ != nullptr ? spindle_->trouble() : std::string();
-    for (const auto& switches : switches_) {
-        what = what.empty() ? switches->trouble() : what;
+// Of the spindle: one part has it.
+OutputPart::Progress ProgramOutputs::progress() const {
+    OutputPart::Progress out;
+    for (const auto& part : parts_) {
+        const OutputPart::Progress of = part->progress();
+        out.carried_out = out.carried_out && of.carried_out;
+        out.stands = out.stands && of.stands;
+        out.stop_timeout_s = std::max(out.stop_timeout_s, of.stop_timeout_s);
     }
-    for (const auto& inputs : inputs_) {
-        what = what.empty() ? inputs->trouble() : what;
+    return out;
+}
+
+std::string ProgramOutputs::trouble() const {
+    std::string what;
+    for (const auto& part : parts_) {
+        what = what.empty() ? part->trouble() : what;
     }
     return what;
 }
 
 std::string ProgramOutputs::unconfirmed() const {
     std::string what;
-    for (const auto& switches : switches_) {
-        const std::string line = switches->unconfirmed();
+    for (const auto& part : parts_) {
+        const std::string line = part->unconfirmed();
         what += line.empty() ? "" : (what.empty() ? "" : "; ") + line + " did not confirm its last level";
     }
     return what;
@@ -117,8 +113,8 @@ std::string ProgramOutputs::unended() const {
 bool ProgramOutputs::ends() const {
     constexpr double switches_s = 1.0;
     const double passed_s = 1e-6 * static_cast<double>(clock_->now_us() - ended_us_.load());
-    return (!spindle_stands() && passed_s < spindle_->stop_timeout_s()) ||
-           (passed_s < switches_s && !unconfirmed().empty());
+    const OutputPart::Progress spindle = progress();
+    return (!spindle.stands && passed_s < spindle.stop_timeout_s) || (passed_s < switches_s && !unconfirmed().empty());
 }
 
 } // namespace splinefeed::host

@@ -39,24 +39,19 @@ private:
 /// After end(), or once there is trouble, nothing is turned on any more.
 class ProgramOutputs {
 public:
-    using Switches = std::vector<std::shared_ptr<RunSwitches>>;
-    using Inputs = std::vector<std::shared_ptr<RunInputs>>;
+    static constexpr std::int32_t none = -1; ///< an input that there is not
 
-    /// @param spindle  null: the machine has none
-    ProgramOutputs(std::unique_ptr<RunSpindle> spindle, Switches switches, Inputs inputs = {},
-                   hal::Clock& clock = hal::system_clock())
-        : spindle_(std::move(spindle)), switches_(std::move(switches)), inputs_(std::move(inputs)), clock_(&clock) {}
+    explicit ProgramOutputs(OutputParts parts, hal::Clock& clock = hal::system_clock())
+        : parts_(std::move(parts)), clock_(&clock) {}
 
     /// Carries out what an event asks for, or begins to wait for its input, in place of another one; of one that there
     /// is not: it waits for none any more. @pre the machine has what it is about
     void act(const ProgramAction& action);
-    /// Whether M66 has inputs to wait for.
-    [[nodiscard]] bool reads_inputs() const noexcept { return !inputs_.empty(); }
     /// Called each millisecond.
     void update();
     /// Whether the last order is carried out: the spindle turns as it was told, the input has answered. The motion
     /// waits for that.
-    [[nodiscard]] bool reached() const { return !asks_.load() && (spindle_ == nullptr || spindle_->reached()); }
+    [[nodiscard]] bool reached() const { return !asks_.load() && progress().carried_out; }
     /// What the last input answered: its level as 0 or 1, -1 after the time-out.
     [[nodiscard]] int answer() const noexcept { return answer_.load(); }
     /// Stops the spindle, turns the coolant off, and makes the outputs safe, for good.
@@ -64,27 +59,21 @@ public:
     /// Why something is not as ordered; empty: all is.
     [[nodiscard]] std::string trouble() const;
     /// Whether the spindle is known to stand.
-    [[nodiscard]] bool spindle_stands() const { return spindle_ == nullptr || spindle_->stands(); }
+    [[nodiscard]] bool spindle_stands() const { return progress().stands; }
     /// After end(): what may not have ended yet, "the spindle did not confirm ..."; empty: everything has.
     [[nodiscard]] std::string unended() const;
     /// After end(): whether something that has not ended may still do so, each in the time that it may take.
     [[nodiscard]] bool ends() const;
 
     /// Whether an event acts on an output.
-    [[nodiscard]] static bool is_of(const ProgramAction& action) noexcept {
-        return action.spindle.has_value() || RunSwitches::is_of(action.kind);
-    }
+    [[nodiscard]] static bool is_of(const ProgramAction& action) noexcept;
 
 private:
-    void ask(const ProgramAction& action);
-    void end_question();
     [[nodiscard]] std::string unconfirmed() const;
+    [[nodiscard]] OutputPart::Progress progress() const;
 
-    std::unique_ptr<RunSpindle> spindle_;
-    Switches switches_;
-    Inputs inputs_;
+    OutputParts parts_;
     hal::Clock* clock_;
-    RunInputs* asked_ = nullptr; // those of the question
     std::optional<InputQuestion> question_;
     std::atomic<bool> asks_{false};
     std::atomic<int> answer_{0};

@@ -38,7 +38,7 @@ struct Bench {
 
     MachineDescription machine = parse_machine(machine_text, "m.toml");
     RecordedChips chips{machine.lines};
-    std::shared_ptr<RunSwitches> switches = line_outputs(machine, chips.all).switches;
+    std::shared_ptr<OutputPart> switches = line_outputs(machine, chips.all).front();
 };
 
 constexpr std::uint64_t mist = 1;
@@ -52,26 +52,26 @@ TEST_CASE("Coolant and outputs are lines with a level each, and safe at the end"
     Bench bench;
     REQUIRE(bench.chips.chip.size() == 2);
     CHECK(bench.machine.lines.chips[1].outputs[0].safe_level); // the clamp
-    bench.switches->act(EventKind::mist_on, 0);
+    bench.switches->act({.kind = EventKind::mist_on, .number = 0, .text = {}});
     CHECK(bench.levels(0) == (mist | flood_off));
-    bench.switches->act(EventKind::flood_on, 0);
+    bench.switches->act({.kind = EventKind::flood_on, .number = 0, .text = {}});
     CHECK(bench.levels(0) == mist);
-    bench.switches->act(EventKind::coolant_off, 0);
+    bench.switches->act({.kind = EventKind::coolant_off, .number = 0, .text = {}});
     CHECK(bench.levels(0) == flood_off);
-    bench.switches->act(EventKind::flood_on, 0);
-    bench.switches->act(EventKind::output_on_with_motion, 7);
+    bench.switches->act({.kind = EventKind::flood_on, .number = 0, .text = {}});
+    bench.switches->act({.kind = EventKind::output_on_with_motion, .number = 7, .text = {}});
     CHECK(bench.levels(0) == door);
-    bench.switches->act(EventKind::output_off_with_motion, 7);
+    bench.switches->act({.kind = EventKind::output_off_with_motion, .number = 7, .text = {}});
     CHECK(bench.levels(0) == 0);
-    bench.switches->act(EventKind::output_on, 7);
-    bench.switches->act(EventKind::output_off, 0);
+    bench.switches->act({.kind = EventKind::output_on, .number = 7, .text = {}});
+    bench.switches->act({.kind = EventKind::output_off, .number = 0, .text = {}});
     CHECK(bench.levels(0) == door);
     CHECK(bench.levels(1) == 0);
     bench.switches->end();
     CHECK(bench.levels(0) == flood_off);
     CHECK(bench.levels(1) == clamp);
     const std::size_t calls = bench.chips.chip[0]->rows().size();
-    bench.switches->act(EventKind::mist_on, 0);
+    bench.switches->act({.kind = EventKind::mist_on, .number = 0, .text = {}});
     bench.switches->end();
     CHECK(bench.chips.chip[0]->rows().size() == calls);
     CHECK(bench.switches->trouble().empty());
@@ -79,12 +79,12 @@ TEST_CASE("Coolant and outputs are lines with a level each, and safe at the end"
 
 TEST_CASE("A line that cannot be set is trouble that names it; the other chip becomes safe", "[switches]") {
     Bench bench;
-    bench.switches->act(EventKind::output_off, 0);
+    bench.switches->act({.kind = EventKind::output_off, .number = 0, .text = {}});
     bench.chips.chip[0]->fail_after(1);
-    bench.switches->act(EventKind::flood_on, 0);
+    bench.switches->act({.kind = EventKind::flood_on, .number = 0, .text = {}});
     CHECK(bench.switches->trouble() == "/dev/gpiochip0 line 5 cannot be set: No such device");
     const std::size_t calls = bench.chips.chip[0]->rows().size();
-    bench.switches->act(EventKind::mist_on, 0);
+    bench.switches->act({.kind = EventKind::mist_on, .number = 0, .text = {}});
     CHECK(bench.chips.chip[0]->rows().size() == calls);
     bench.switches->end();
     CHECK(bench.levels(0) == flood_off); // it was tried

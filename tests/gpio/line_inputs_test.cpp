@@ -47,21 +47,25 @@ TEST_CASE("Inputs are lines with a level each, read when they are watched", "[in
     RecordedChips chips{machine.lines};
     VirtualClock clock;
     const OutputParts outputs = line_outputs(machine, chips.all, clock);
-    RunInputs& inputs = *outputs.inputs;
+    OutputPart& inputs = *outputs.back();
+    const auto watch = [&](std::int32_t number) {
+        inputs.act({.kind = EventKind::input_wait, .number = number, .text = {}});
+    };
     CHECK_FALSE(inputs.take());
-    CHECK_FALSE(inputs.watch(5));
-    CHECK_FALSE(inputs.watch(7)); // of a module
-    CHECK_FALSE(inputs.take());
-    REQUIRE(inputs.watch(4));
+    for (const int other : {5, 7}) { // one of a module
+        watch(other);
+        CHECK_FALSE(inputs.take());
+    }
+    watch(4);
     CHECK(inputs.take()->active == false);
     chips.inputs[0]->now = 1;
     CHECK(inputs.take()->active);
     CHECK(inputs.take()->asked_us == clock.now_us());
-    REQUIRE(inputs.watch(0));
+    watch(0);
     CHECK(inputs.take()->active);
     chips.inputs[0]->now = 3;
     CHECK_FALSE(inputs.take()->active);
-    inputs.unwatch();
+    watch(-1);
     CHECK_FALSE(inputs.take());
     CHECK(inputs.trouble().empty());
 }
@@ -70,8 +74,8 @@ TEST_CASE("An input that cannot be read is trouble that names it", "[inputs]") {
     const MachineDescription machine = parse_machine(machine_text, "m.toml");
     RecordedChips chips{machine.lines};
     const OutputParts outputs = line_outputs(machine, chips.all);
-    RunInputs& inputs = *outputs.inputs;
-    REQUIRE(inputs.watch(4));
+    OutputPart& inputs = *outputs.back();
+    inputs.act({.kind = EventKind::input_wait, .number = 4, .text = {}});
     chips.inputs[0]->now.reset();
     CHECK_FALSE(inputs.take());
     CHECK(inputs.trouble().rfind("the line of input 4 cannot be read", 0) == 0);

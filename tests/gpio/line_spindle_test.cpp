@@ -29,6 +29,9 @@ struct Bench {
             spindle.update();
         }
     }
+    void order(int direction) {
+        spindle.act({.kind = EventKind::spindle_clockwise, .text = {}, .spindle = SpindleTurn{direction, 5000.0}});
+    }
     [[nodiscard]] std::uint64_t levels() const {
         return chips.chip[0]->rows().empty() ? off : chips.chip[0]->rows().back().levels;
     }
@@ -41,7 +44,7 @@ struct Bench {
     MachineDescription machine;
     RecordedChips chips;
     OutputParts outputs;
-    RunSpindle& spindle = *outputs.spindle;
+    OutputPart& spindle = *outputs.front();
 };
 
 const std::string reverse_line = "reverse = { line = 'REV' }\n";
@@ -51,36 +54,36 @@ const std::string at_speed_line = "at_speed = { line = 'OK' }\n";
 
 TEST_CASE("A spindle on a line is on at once, and has its speed after its time", "[line spindle]") {
     Bench bench("");
-    CHECK(bench.spindle.stands());
-    CHECK(bench.spindle.reached());
-    bench.spindle.order(1, 5000.0);
+    CHECK(bench.spindle.progress().stands);
+    CHECK(bench.spindle.progress().carried_out);
+    bench.order(1);
     CHECK(bench.levels() == 0);
-    CHECK_FALSE(bench.spindle.reached());
-    CHECK_FALSE(bench.spindle.stands());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
+    CHECK_FALSE(bench.spindle.progress().stands);
     bench.pass_ms(1999);
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
     bench.pass_ms(1);
-    CHECK(bench.spindle.reached());
-    bench.spindle.order(1, 8000.0); // its speed is set elsewhere
-    CHECK(bench.spindle.reached());
-    bench.spindle.order(0, 0.0);
+    CHECK(bench.spindle.progress().carried_out);
+    bench.order(1); // its speed is set elsewhere
+    CHECK(bench.spindle.progress().carried_out);
+    bench.order(0);
     CHECK(bench.levels() == Bench::off);
-    CHECK(bench.spindle.reached());
-    CHECK_FALSE(bench.spindle.stands());
-    bench.spindle.order(1, 5000.0); // the same direction: it does not wait for standstill
+    CHECK(bench.spindle.progress().carried_out);
+    CHECK_FALSE(bench.spindle.progress().stands);
+    bench.order(1); // the same direction: it does not wait for standstill
     bench.pass_ms(1);
     CHECK(bench.levels() == 0);
-    bench.spindle.order(0, 0.0);
+    bench.order(0);
     bench.pass_ms(2999);
-    CHECK_FALSE(bench.spindle.stands());
+    CHECK_FALSE(bench.spindle.progress().stands);
     bench.pass_ms(1);
-    CHECK(bench.spindle.stands());
+    CHECK(bench.spindle.progress().stands);
     CHECK(bench.spindle.trouble().empty());
 }
 
 TEST_CASE("It stands before it turns in the other direction, and before its first turn", "[line spindle]") {
     Bench bench(reverse_line);
-    bench.spindle.order(-1, 5000.0);
+    bench.order(-1);
     bench.pass_ms(2900); // it may have turned before the run
     CHECK(bench.levels() == Bench::off);
     bench.pass_ms(110);
@@ -88,12 +91,12 @@ TEST_CASE("It stands before it turns in the other direction, and before its firs
     bench.pass_ms(60);
     CHECK(bench.levels() == Bench::reverse);
     bench.pass_ms(2000);
-    REQUIRE(bench.spindle.reached());
-    bench.spindle.order(1, 5000.0);
+    REQUIRE(bench.spindle.progress().carried_out);
+    bench.order(1);
     CHECK(bench.levels() == (Bench::off | Bench::reverse));
     bench.pass_ms(2990);
     CHECK(bench.levels() == (Bench::off | Bench::reverse));
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
     bench.pass_ms(100);
     CHECK(bench.levels() == 0);
 }
@@ -101,12 +104,12 @@ TEST_CASE("It stands before it turns in the other direction, and before its firs
 TEST_CASE("The line at_speed is waited for, and its loss is trouble", "[line spindle]") {
     Bench bench(at_speed_line);
     bench.at_speed(true); // it cannot be right yet
-    bench.spindle.order(1, 5000.0);
+    bench.order(1);
     bench.pass_ms(1000);
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
     bench.at_speed(false);
     bench.pass_ms(2000);
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
     SECTION("it never acts") {
         bench.pass_ms(3100);
         CHECK(bench.spindle.trouble() ==
@@ -115,7 +118,7 @@ TEST_CASE("The line at_speed is waited for, and its loss is trouble", "[line spi
     SECTION("it acts, and is lost") {
         bench.at_speed(true);
         bench.pass_ms(1);
-        REQUIRE(bench.spindle.reached());
+        REQUIRE(bench.spindle.progress().carried_out);
         bench.at_speed(false);
         bench.pass_ms(50); // a bounce
         bench.at_speed(true);
@@ -131,46 +134,46 @@ TEST_CASE("The line at_speed is waited for, and its loss is trouble", "[line spi
         CHECK(bench.spindle.trouble().rfind("the spindle's at_speed line cannot be read", 0) == 0);
     }
     CHECK(bench.levels() == Bench::off);
-    bench.spindle.order(1, 5000.0);
+    bench.order(1);
     bench.pass_ms(100);
     CHECK(bench.levels() == Bench::off);
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
 }
 
 TEST_CASE("Once it was ended it is never turned on again", "[line spindle]") {
     Bench bench("");
-    bench.spindle.order(1, 5000.0);
+    bench.order(1);
     bench.pass_ms(2500);
     bench.spindle.end();
     CHECK(bench.levels() == Bench::off);
-    CHECK_FALSE(bench.spindle.stands());
-    bench.spindle.order(1, 5000.0);
+    CHECK_FALSE(bench.spindle.progress().stands);
+    bench.order(1);
     bench.pass_ms(2990);
-    CHECK_FALSE(bench.spindle.stands());
+    CHECK_FALSE(bench.spindle.progress().stands);
     bench.spindle.end();
     bench.pass_ms(20);
     CHECK(bench.levels() == Bench::off);
-    CHECK(bench.spindle.stands());
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK(bench.spindle.progress().stands);
+    CHECK_FALSE(bench.spindle.progress().carried_out);
 }
 
 TEST_CASE("A line of the spindle that cannot be set is trouble that names it", "[line spindle]") {
     Bench bench("");
     bench.chips.chip[0]->fail_after(1);
-    bench.spindle.order(1, 5000.0);
+    bench.order(1);
     CHECK(bench.spindle.trouble() == "/dev/gpiochip0 ON cannot be set: No such device");
-    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.progress().carried_out);
 }
 
 TEST_CASE("A spindle whose line cannot be set any more is not said to stand", "[line spindle]") {
     Bench bench("");
-    bench.spindle.order(1, 5000.0);
+    bench.order(1);
     bench.pass_ms(2500);
     bench.chips.chip[0]->fail_after(1);
     bench.spindle.end();
     bench.pass_ms(10'000);
-    CHECK_FALSE(bench.spindle.stands());
+    CHECK_FALSE(bench.spindle.progress().stands);
     bench.chips.chip[0]->fail_after(0);
     bench.pass_ms(3001);
-    CHECK(bench.spindle.stands());
+    CHECK(bench.spindle.progress().stands);
 }

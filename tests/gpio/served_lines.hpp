@@ -163,9 +163,7 @@ public:
 private:
     [[nodiscard]] std::unique_ptr<splinefeed::host::ProgramOutputs> outputs() {
         using namespace splinefeed::host;
-        OutputParts parts = line_outputs(run_machine_.machine, chips.all, clock);
-        return std::make_unique<ProgramOutputs>(std::move(parts.spindle), ProgramOutputs::Switches{parts.switches},
-                                                ProgramOutputs::Inputs{parts.inputs}, clock);
+        return std::make_unique<ProgramOutputs>(line_outputs(run_machine_.machine, chips.all, clock), clock);
     }
     [[nodiscard]] std::uint32_t now_ms() const { return static_cast<std::uint32_t>(clock.now_ns() / 1'000'000); }
 

@@ -46,7 +46,8 @@ Outcome run(const std::string& program, bool old, const MachineDescription& mach
                     {.axes = {machine.axis_name.begin(), machine.axis_name.begin() + axes}});
     const PathLimits path_limits(machine);
     Outputs outputs(arguments.outputs, input.curve_name(), false, machine);
-    Motion motion(arguments.motion, machine, figures, input, path_limits, outputs);
+    LiveMachine none;
+    Motion motion(arguments.motion, machine, figures, input, path_limits, outputs, none);
     if (old) {
         auto& path = dynamic_cast<ScalarPath<Fixed>&>(CounterSeam::path(motion));
         CounterSeam::travelled(path.trajectory(), far_length, far_segments, far_segments);

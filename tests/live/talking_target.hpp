@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 namespace splinefeed_test {
 
@@ -194,25 +195,33 @@ private:
     bool complete_ = false;
 };
 
-class TalkingSpindle final : public RunSpindle, Talking {
+class TalkingSpindle final : public OutputPart, Talking {
 public:
     explicit TalkingSpindle(TalkingWorld& world) : Talking(world) {}
-    void order(int direction, double rpm) override { world_->say(fmt::format("spindle {} {:g}", direction, rpm)); }
-    void end() override { std::exchange(ended_, true) ? void() : world_->say("spindle ends"); }
-    [[nodiscard]] bool reached() const override { return !ended_ && !world_->is("slow") && !world_->is("silent"); }
-    [[nodiscard]] bool stands() const override { return !world_->is("turning"); }
+    void act(const ProgramAction& action) override {
+        if (action.spindle) {
+            world_->say(fmt::format("spindle {} {:g}", action.spindle->direction, action.spindle->rpm));
+        }
+    }
+    void end() noexcept override { std::exchange(ended_, true) ? void() : world_->say("spindle ends"); }
+    [[nodiscard]] Progress progress() const override {
+        return {.carried_out = !ended_ && !world_->is("slow") && !world_->is("silent"),
+                .stands = !world_->is("turning"),
+                .stop_timeout_s = static_cast<double>(world_->number("stop_s", 0))};
+    }
     [[nodiscard]] std::string trouble() const override { return world_->text("silent"); }
-    [[nodiscard]] double stop_timeout_s() const override { return world_->number("stop_s", 0); }
 
 private:
     bool ended_ = false;
 };
 
-class TalkingSwitches final : public RunSwitches, Talking {
+class TalkingSwitches final : public OutputPart, Talking {
 public:
     explicit TalkingSwitches(TalkingWorld& world) : Talking(world) {}
-    void act(EventKind kind, std::int32_t number) override {
-        world_->say(fmt::format("{} {}", action_name(kind), number));
+    void act(const ProgramAction& action) override {
+        if (!action.spindle && ProgramOutputs::is_of(action)) {
+            world_->say(fmt::format("{} {}", action_name(action.kind), action.number));
+        }
     }
     void end() noexcept override { std::exchange(ended_, true) ? void() : world_->say("switches end"); }
     [[nodiscard]] std::string trouble() const override { return world_->text("severed"); }
@@ -223,14 +232,14 @@ private:
 };
 
 /// Input 4 alone; it has a level, or none is read.
-class TalkingInputs final : public RunInputs, Talking {
+class TalkingInputs final : public OutputPart, Talking {
 public:
     explicit TalkingInputs(TalkingWorld& world) : Talking(world) {}
-    [[nodiscard]] bool watch(std::int32_t number) override {
-        world_->say(fmt::format("watch {}", number));
-        return number == 4;
+    void act(const ProgramAction& action) override {
+        if (action.kind == EventKind::input_wait) {
+            world_->say(action.number >= 0 ? fmt::format("watch {}", action.number) : "unwatch");
+        }
     }
-    void unwatch() override { world_->say("unwatch"); }
     [[nodiscard]] std::optional<InputReading> take() override {
         return world_->is("level") ? std::optional(InputReading{world_->text("level") == "1", world_->clock.now_us()})
                                    : std::nullopt;
@@ -246,14 +255,16 @@ inline std::unique_ptr<ProgramOutputs> TalkingWorld::outputs() {
     if (is("unreachable")) {
         throw TargetError(text("unreachable"));
     }
-    ProgramOutputs::Switches switches{std::make_shared<TalkingSwitches>(*this)};
-    ProgramOutputs::Inputs inputs{std::make_shared<TalkingInputs>(*this)};
-    const auto has = [this](const char* part) {
-        return text("outputs").find(part) != std::string::npos;
+    OutputParts parts;
+    const auto add = [&]<class Part>(const char* name, std::type_identity<Part>) {
+        if (text("outputs").find(name) != std::string::npos) {
+            parts.push_back(std::make_shared<Part>(*this));
+        }
     };
-    return std::make_unique<ProgramOutputs>(has("spindle") ? std::make_unique<TalkingSpindle>(*this) : nullptr,
-                                            has("switches") ? switches : ProgramOutputs::Switches{},
-                                            has("inputs") ? inputs : ProgramOutputs::Inputs{}, clock);
+    add("spindle", std::type_identity<TalkingSpindle>());
+    add("switches", std::type_identity<TalkingSwitches>());
+    add("inputs", std::type_identity<TalkingInputs>());
+    return std::make_unique<ProgramOutputs>(std::move(parts), clock);
 }
 
 inline MachineDescription talking_machine() {

@@ -20,20 +20,20 @@ constexpr double lost_s = 0.1;   // an input that does not act for so long is no
 
 /// A spindle. Its speed is reached spin_up_s after it was turned on, and then when its input says so. It stands
 /// spin_down_s after it was turned off, and is turned in the other direction only then.
-class LineSpindle final : public RunSpindle {
+class LineSpindle final : public OutputPart {
 public:
     LineSpindle(const SpindleLines& spindle, const ProgramLines& lines, double at_speed_timeout_s, ProgramChips chips,
                 hal::Clock& clock)
         : spindle_(&spindle), lines_(&lines), at_speed_timeout_s_(at_speed_timeout_s), chips_(std::move(chips)),
           clock_(&clock), turned_(spindle.reverse ? 0 : 1), changed_us_(clock.now_us()) {}
 
-    void order(int direction, double /*rpm*/) override {
+    // Its speed is set elsewhere.
+    void act(const ProgramAction& action) override {
         const std::lock_guard lock(mutex_);
-        if (ended_ || !trouble_.empty()) {
-            return;
+        if (action.spindle && !ended_ && trouble_.empty()) {
+            wanted_ = action.spindle->direction;
+            follow();
         }
-        wanted_ = direction;
-        follow();
     }
 
     void update() override {
@@ -46,7 +46,7 @@ public:
         }
     }
 
-    void end() override {
+    void end() noexcept override {
         const std::lock_guard lock(mutex_);
         if (std::exchange(ended_, true)) {
             return;
@@ -58,23 +58,19 @@ public:
         changed_us_ = was_on ? changed_us_ : off_us; // since then it comes to a standstill
     }
 
-    [[nodiscard]] bool reached() const override {
+    [[nodiscard]] Progress progress() const override {
         const std::lock_guard lock(mutex_);
-        return !ended_ && trouble_.empty() && on_ == wanted_ &&
-               (on_ == 0 || (passed(spindle_->spin_up_s) && (!spindle_->at_speed || at_speed_)));
-    }
-
-    [[nodiscard]] bool stands() const override {
-        const std::lock_guard lock(mutex_);
-        return !is_on_ || (on_ == 0 && obeys_ && passed(spindle_->spin_down_s));
+        const bool has_speed =
+            on_ == 0 || (passed(spindle_->spin_up_s) && (!spindle_->at_speed || at_speed_));
+        return {.carried_out = !ended_ && trouble_.empty() && on_ == wanted_ && has_speed,
+                .stands = !is_on_ || (on_ == 0 && obeys_ && passed(spindle_->spin_down_s)),
+                .stop_timeout_s = spindle_->spin_down_s + 0.5};
     }
 
     [[nodiscard]] std::string trouble() const override {
         const std::lock_guard lock(mutex_);
         return trouble_;
     }
-
-    [[nodiscard]] double stop_timeout_s() const override { return spindle_->spin_down_s + 0.5; }
 
 private:
     [[nodiscard]] bool set(const SwitchedLine& line, bool on) {
@@ -176,17 +172,17 @@ private:
 };
 
 /// Coolant and digital outputs.
-class GpioSwitches final : public RunSwitches {
+class GpioSwitches final : public OutputPart {
 public:
     GpioSwitches(const ProgramLines& lines, ProgramChips chips) : lines_(&lines), chips_(std::move(chips)) {}
     ~GpioSwitches() override { GpioSwitches::end(); }
 
-    void act(EventKind kind, std::int32_t number) override {
+    void act(const ProgramAction& action) override {
         const std::lock_guard lock(mutex_);
         if (ended_ || !trouble_.empty()) {
             return;
         }
-        for (const SwitchTurn& each : switch_turns(*lines_, kind, number)) {
+        for (const SwitchTurn& each : switch_turns(*lines_, action.kind, action.number)) {
             turn(each);
         }
     }
@@ -239,19 +235,18 @@ private:
 
 /// Digital inputs. Each take() reads the line: a level that lasts for less than the time between two of them may be
 /// missed.
-class LineInputs final : public RunInputs {
+class LineInputs final : public OutputPart {
 public:
     LineInputs(const ProgramLines& lines, ProgramChips chips, hal::Clock& clock)
         : lines_(&lines), chips_(std::move(chips)), clock_(&clock) {}
 
-    [[nodiscard]] bool watch(std::int32_t number) override {
-        const DigitalInput* const input = lines_->input(number);
-        watched_ = input != nullptr ? std::get_if<SensedLine>(&input->line) : nullptr;
-        number_ = number;
-        return watched_ != nullptr;
+    void act(const ProgramAction& action) override {
+        if (action.kind == EventKind::input_wait) {
+            const DigitalInput* const input = lines_->input(action.number);
+            watched_ = input != nullptr ? std::get_if<SensedLine>(&input->line) : nullptr;
+            number_ = action.number;
+        }
     }
-
-    void unwatch() override { watched_ = nullptr; }
 
     [[nodiscard]] std::optional<InputReading> take() override {
         if (watched_ == nullptr) {
@@ -287,11 +282,11 @@ private:
 OutputParts line_outputs(const MachineDescription& machine, const ProgramChips& chips, hal::Clock& clock) {
     OutputParts out;
     if (machine.spindle && machine.spindle->lines) {
-        out.spindle = std::make_unique<LineSpindle>(*machine.spindle->lines, machine.lines,
-                                                    machine.spindle->at_speed_timeout_s, chips, clock);
+        out.push_back(std::make_shared<LineSpindle>(*machine.spindle->lines, machine.lines,
+                                                    machine.spindle->at_speed_timeout_s, chips, clock));
     }
-    out.switches = std::make_shared<GpioSwitches>(machine.lines, chips);
-    out.inputs = std::make_shared<LineInputs>(machine.lines, chips, clock);
+    out.push_back(std::make_shared<GpioSwitches>(machine.lines, chips));
+    out.push_back(std::make_shared<LineInputs>(machine.lines, chips, clock));
     return out;
 }
 

@@ -40,7 +40,7 @@ void require_own_wire(const DriveAddress& device, const std::string& what, const
     }
 }
 
-class VfdRunSpindle final : public RunSpindle {
+class VfdRunSpindle final : public OutputPart {
 public:
     explicit VfdRunSpindle(const SpindleDescription& spindle)
         : spindle_(&spindle), claims_(spindle.vfd->address),
@@ -51,15 +51,19 @@ public:
         }
     }
 
-    void order(int direction, double rpm) override { vfd_.order({direction, rpm / spindle_->rpm_per_hz}); }
-    void end() override { vfd_.end(); }
-    [[nodiscard]] bool reached() const override { return vfd_.reached(); }
-    [[nodiscard]] bool stands() const override { return !vfd_.was_on() || vfd_.stands(); }
+    void act(const ProgramAction& action) override {
+        if (action.spindle) {
+            vfd_.order({action.spindle->direction, action.spindle->rpm / spindle_->rpm_per_hz});
+        }
+    }
+    void end() noexcept override { vfd_.end(); }
+    [[nodiscard]] Progress progress() const override {
+        return {vfd_.reached(), !vfd_.was_on() || vfd_.stands(), spindle_->at_speed_timeout_s};
+    }
     [[nodiscard]] std::string trouble() const override {
         const std::string what = vfd_.trouble();
         return what.empty() ? what : fmt::format("{}: {}", spindle_->vfd->address.text, what);
     }
-    [[nodiscard]] double stop_timeout_s() const override { return spindle_->at_speed_timeout_s; }
 
 private:
     const SpindleDescription* spindle_;
@@ -69,7 +73,7 @@ private:
 
 /// The coils and inputs of all I/O modules of a machine, each by what the machine file says of it: a ModuleBus for each
 /// wire.
-class IoModuleOutputs final : public RunSwitches, public RunInputs {
+class IoModuleOutputs final : public OutputPart {
 public:
     /// @param lines  must outlive it
     explicit IoModuleOutputs(const ProgramLines& lines) : lines_(&lines) {
@@ -121,34 +125,21 @@ public:
         return {};
     }
 
-    void act(EventKind kind, std::int32_t number) override {
-        for (const SwitchTurn& turn : switch_turns(*lines_, kind, number)) {
-            // Lines that are not of a module are left to others.
+    // Lines that are not of a module are left to others.
+    void act(const ProgramAction& action) override {
+        for (const SwitchTurn& turn : switch_turns(*lines_, action.kind, action.number)) {
             if (const auto found = coils_.find(turn.line); found != coils_.end()) {
                 found->second.bus->set(found->second.index, turn.on == found->second.on_level);
             }
+        }
+        if (action.kind == EventKind::input_wait) {
+            watch(action.number);
         }
     }
 
     void end() noexcept override {
         for (const auto& [wire, bus] : buses_) {
             bus->end();
-        }
-    }
-
-    [[nodiscard]] bool watch(std::int32_t number) override {
-        const auto found = inputs_.find(number);
-        watched_ = found != inputs_.end() ? &found->second : nullptr;
-        if (watched_ != nullptr) {
-            watched_->bus->watch(watched_->index);
-        }
-        return watched_ != nullptr;
-    }
-
-    void unwatch() override {
-        if (watched_ != nullptr) {
-            watched_->bus->unwatch();
-            watched_ = nullptr;
         }
     }
 
@@ -180,6 +171,17 @@ private:
         std::size_t index = 0;
         bool on_level = true;
     };
+
+    void watch(std::int32_t number) {
+        if (watched_ != nullptr) {
+            watched_->bus->unwatch();
+        }
+        const auto found = inputs_.find(number);
+        watched_ = found != inputs_.end() ? &found->second : nullptr;
+        if (watched_ != nullptr) {
+            watched_->bus->watch(watched_->index);
+        }
+    }
 
     [[nodiscard]] ModuleBus& bus_of(std::size_t module) { return *buses_[bus_of_module_[module]].second; }
 
@@ -230,12 +232,10 @@ OutputParts make_modbus_outputs(const MachineDescription& machine, const std::st
     OutputParts out;
     if (machine.spindle && machine.spindle->vfd) {
         require_own_wire(machine.spindle->vfd->address, "the spindle", machine, target);
-        out.spindle = std::make_unique<VfdRunSpindle>(*machine.spindle);
+        out.push_back(std::make_shared<VfdRunSpindle>(*machine.spindle));
     }
     if (!machine.lines.modules.empty()) {
-        const auto modules = make_module_outputs(machine, target);
-        out.switches = modules;
-        out.inputs = modules;
+        out.push_back(make_module_outputs(machine, target));
     }
     return out;
 }

@@ -131,11 +131,22 @@ std::string SimTarget::where() const {
     return places().empty() ? "; nothing was moved" : text.text();
 }
 
-void SimSpindle::order(int direction, double rpm) {
-    const double wanted = direction * rpm;
+void SimSpindle::act(const ProgramAction& action) {
+    if (action.spindle) {
+        turn(*action.spindle);
+    }
+}
+
+void SimSpindle::turn(const SpindleTurn& turn) noexcept {
+    const double wanted = turn.direction * turn.rpm;
     const double takes_us = machine_->change_s(rpm_.load(), wanted) * static_cast<double>(us_per_s);
     ready_us_.store(clock_->now_us() + static_cast<std::uint64_t>(std::llround(takes_us)));
     rpm_.store(wanted);
+}
+
+OutputPart::Progress SimSpindle::progress() const {
+    const bool ready = clock_->now_us() >= ready_us_.load();
+    return {ready, ready && rpm_.load() == 0.0, machine_->change_s(machine_->max_rpm, 0.0)};
 }
 
 extern const TargetKind sim_kind{

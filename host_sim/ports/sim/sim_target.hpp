@@ -67,19 +67,19 @@ private:
 };
 
 /// It takes the time that the machine file says.
-class SimSpindle final : public RunSpindle {
+class SimSpindle final : public OutputPart {
 public:
     explicit SimSpindle(const SpindleDescription& machine, hal::Clock& clock = hal::system_clock()) noexcept
         : machine_(&machine), clock_(&clock) {}
 
-    void order(int direction, double rpm) override;
-    void end() override { order(0, 0.0); }
-    [[nodiscard]] bool reached() const override { return clock_->now_us() >= ready_us_.load(); }
-    [[nodiscard]] bool stands() const override { return rpm_.load() == 0.0 && reached(); }
+    void act(const ProgramAction& action) override;
+    void end() noexcept override { turn({}); }
+    [[nodiscard]] Progress progress() const override;
     [[nodiscard]] std::string trouble() const override { return {}; }
-    [[nodiscard]] double stop_timeout_s() const override { return machine_->change_s(machine_->max_rpm, 0.0); }
 
 private:
+    void turn(const SpindleTurn& turn) noexcept;
+
     const SpindleDescription* machine_;
     hal::Clock* clock_;
     std::atomic<double> rpm_{0.0};
