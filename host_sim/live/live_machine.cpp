@@ -235,12 +235,8 @@ void LiveMachine::obey(const ProgramEvent& event) noexcept {
     feed_->order(action_of(event), false);
 }
 
-bool LiveMachine::has_input(std::int32_t number) const noexcept {
-    return !settings_.simulates && machine_->lines.has(EventKind::input_wait, number);
-}
-
 bool LiveMachine::has_output(EventKind kind, std::int32_t number) const noexcept {
-    return settings_.simulates || machine_->lines.has(kind, number);
+    return settings_.simulates ? kind != EventKind::input_wait : machine_->lines.has(kind, number);
 }
 
 void LiveMachine::forget_input() noexcept {

@@ -135,14 +135,10 @@ public:
     /// Of a machine that is served and stands: the state gets its places, if it does not have them.
     void keep();
 
-    /// Whether the program's offsets have changed since the last call.
-    [[nodiscard]] bool take_offsets_change() noexcept { return std::exchange(offsets_changed_, false); }
-
     // For the controller:
 
     MachineReading read() noexcept override;
     void obey(const ProgramEvent& event) noexcept override;
-    [[nodiscard]] bool has_input(std::int32_t number) const noexcept override;
     [[nodiscard]] bool has_output(EventKind kind, std::int32_t number) const noexcept override;
     void forget_input() noexcept override;
     void watch_probe(bool away) noexcept override;
@@ -151,7 +147,6 @@ public:
     void quick_stop() noexcept override;
     void enable(bool on) noexcept override;
     void reset_faults() noexcept override;
-    void offsets_changed() noexcept override { offsets_changed_ = true; }
 
 private:
     static constexpr std::uint64_t poll_every_us = 1000;
@@ -246,7 +241,6 @@ private:
     std::string note_;     // likewise
     bool at_rest_ = true;  // at the end of the last segment,
     bool rests_ = true;    // and rest() was called behind it
-    bool offsets_changed_ = false;
     std::atomic<bool> over_{false};
     // Shared:
     mutable std::mutex mutex_; // protects the members below

@@ -105,6 +105,7 @@ Server::Server(const ControllerSettings& settings, ServedMotion& motion, LiveMac
     : motion_(&motion.motion()), live_(&live), state_(state), lines_(line_memory), answers_(answer_memory),
       text_(answer_memory), controller_(settings, *motion_, live, {lines_, answers_}), says_(says) {
     motion_->interpreter().restore(begins.offsets);
+    offsets_ = motion_->interpreter().offsets();
     door_ = make_sender_door({
         .opened =
             [this](const std::string& name) {
@@ -201,8 +202,9 @@ void Server::keep() {
     if (state_ == nullptr) {
         return;
     }
-    if (live_->take_offsets_change()) {
-        state_->offsets(motion_->interpreter().offsets());
+    if (const WorkOffsets& now = motion_->interpreter().offsets(); now != offsets_) {
+        offsets_ = now;
+        state_->offsets(now);
     }
     if (is_at_rest() && motion_->exhausted()) {
         live_->keep();

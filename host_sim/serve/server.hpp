@@ -54,6 +54,7 @@ private:
     bool says_;
     bool leaves_ = false;
     UserSuspend suspend_;
+    WorkOffsets offsets_; // that the state has
 };
 
 } // namespace splinefeed::host

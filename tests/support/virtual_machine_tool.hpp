@@ -121,9 +121,8 @@ public:
         stands_at_ = stops && turned_ ? now_ + spindle_ms : stands_at_;
         turned_ = !stops && (turned_ || event.kind == EventKind::spindle_clockwise);
     }
-    [[nodiscard]] bool has_input(std::int32_t number) const noexcept override { return number == 1; }
-    [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override {
-        return has_outputs;
+    [[nodiscard]] bool has_output(EventKind kind, std::int32_t number) const noexcept override {
+        return kind == EventKind::input_wait ? number == 1 : has_outputs;
     }
     void watch_probe(bool away) noexcept override {
         touched_.reset();
@@ -153,7 +152,6 @@ public:
         orders.emplace_back("faults");
         alarm = alarm == Alarm::drive_fault ? Alarm::none : alarm;
     }
-    void offsets_changed() noexcept override {}
 
 private:
     static constexpr std::uint32_t all_axes = 7;

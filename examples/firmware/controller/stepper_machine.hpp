@@ -36,7 +36,6 @@ public:
     void quick_stop() noexcept override { steps_.order(Stop::cut); }
     void enable(bool on) noexcept override;
     void reset_faults() noexcept override {}
-    void offsets_changed() noexcept override {}
 
 private:
     // More than the reserve, with which it slows down: what is planned until then is to be in time.

@@ -52,9 +52,7 @@ public:
     /// Spindle, coolant, outputs: at once, or when the segments that were submitted before are executed, as the event's
     /// kind says. What it does not have it ignores.
     virtual void obey(const ProgramEvent& event) noexcept = 0;
-    /// Whether it reads that input of M66 P; then obey() begins to wait for it.
-    [[nodiscard]] virtual bool has_input(std::int32_t /*number*/) const noexcept { return false; }
-    /// By default it has none: what would switch one is refused.
+    /// By default it has none: what would switch one is refused. Of an input that it has obey() begins the wait.
     [[nodiscard]] bool has_output(EventKind /*kind*/, std::int32_t /*number*/) const noexcept override { return false; }
     /// That wait is given up. Other orders do not end it.
     virtual void forget_input() noexcept {}
@@ -71,8 +69,6 @@ public:
     virtual void enable(bool on) noexcept = 0;
     /// Tries to end what `alarm` reports: faults of drives. The machine does not stand until it has tried.
     virtual void reset_faults() noexcept = 0;
-    /// The operator's offsets have changed and are to be kept.
-    virtual void offsets_changed() noexcept = 0;
 
 protected:
     ControlledMachine() = default;

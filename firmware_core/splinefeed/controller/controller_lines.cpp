@@ -140,7 +140,6 @@ struct DollarCommands {
         WorkOffsets none;
         none.tool_number = c.motion_->interpreter().offsets().tool_number;
         c.motion_->interpreter().restore(none);
-        c.machine_->offsets_changed();
         c.accept();
     }
     static void setting(Controller& c, TextCursor& rest) noexcept;

@@ -229,12 +229,12 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     case EventKind::message:
     case EventKind::print:
     case EventKind::debug: say(event.text.of(line_.view())); return;
-    case EventKind::offsets_changed: machine_->offsets_changed(); return;
+    case EventKind::offsets_changed: return;
     case EventKind::pause:
     case EventKind::optional_pause:
     case EventKind::pallet_pause: pause("Program paused: '~' goes on"sv); return;
     case EventKind::input_wait:
-        if (!event.analog && machine_->has_input(event.number)) {
+        if (!event.analog && machine_->has_output(event.kind, event.number)) {
             machine_->obey(event);
             task_ = Task::input;
             return;
