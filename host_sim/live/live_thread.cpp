@@ -304,7 +304,9 @@ bool LiveMachine::look_where(bool at_once) {
     }
     std::vector<RunTarget::AxisPlace> places = target_->places();
     const std::lock_guard lock(mutex_);
-    note_silence(places, now_us);
+    if (facts_.has_feedback) {
+        note_silence(places, now_us);
+    }
     if (places.empty()) { // nothing has moved
         return known_.axes == all_axes();
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MotionPort: interface of everything that executes feed segments, from the connection to the end: drives, step lines,
-// the simulated machine. The virtual calls are at the rate of segments.
+// the simulated machine. Its calls are at the rate of segments.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
@@ -62,7 +62,7 @@ public:
 
 protected:
     MotionPort() = default;
-    // Not public and virtual: a public virtual destructor pulls operator delete into firmware.
+    // Not public: that would pull operator delete into firmware.
     ~MotionPort() = default;
 };
 

@@ -233,8 +233,8 @@ SwitchFacts GpioTarget::switch_facts() const {
 }
 
 RunTarget::Signs GpioTarget::signs() {
-    port_.take_changes();
     const hal::gpio::GpioHold stop = port_.stopped_by();
+    port_.take_changes();
     const CauseWords& words = words_of(stop.cause);
     Signs out{.holds = holds(),
               .achieved = port_.hold().cause == GpioCause::touched,
