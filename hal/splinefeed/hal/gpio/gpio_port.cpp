@@ -23,7 +23,7 @@ PortFailure GpioPort::open() {
         return {what};
     }
     const GpioHold stop = stopped_by();
-    const bool given_up = stop.cause == GpioCause::limit && settings_.interrupted();
+    const bool given_up = stop.cause == GpioCause::limit && phases_.phase() == GpioPhase::resting;
     if (!orders_.reset && stop.cause > GpioCause::touched && !given_up) {
         return {stop.what};
     }
@@ -94,7 +94,7 @@ PortFailure GpioPort::home(const FeedSegment& first) {
     for (const unsigned k : indices(settings_.machine.axes)) {
         begin_mm[k] = settings_.begin_mm(k, first);
         if ((orders_.home_axes >> k & 1U) != 0 && map_->home[k]) {
-            mover_.doubt(static_cast<int>(k));
+            mover_.forget(static_cast<int>(k));
         }
     }
     take(GpioEvent::search);

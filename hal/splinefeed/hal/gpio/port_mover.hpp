@@ -37,6 +37,8 @@ public:
     void place(int axis, std::int64_t count, Origin origin) noexcept;
     /// From now on nobody knows whether the axis is where its counts say.
     void doubt(int axis) noexcept { origin_[index(axis)] = std::min(origin_[index(axis)], Origin::told); }
+    /// It may be anywhere.
+    void forget(int axis) noexcept { origin_[index(axis)] = Origin::none; }
     [[nodiscard]] Origin origin(int axis) const noexcept { return origin_[index(axis)]; }
     [[nodiscard]] std::int64_t count(int axis) const noexcept { return port_->counts(axis) + offset_[index(axis)]; }
     /// [mm]
