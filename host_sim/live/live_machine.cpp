@@ -87,7 +87,7 @@ const std::string& LiveMachine::finish() {
 bool LiveMachine::is_dry() const {
     const std::uint64_t left = submitted() - std::min(submitted(), executed());
     return stalls_.load() ||
-           left * settings_.segment_ticks < facts_.least_ahead_us * static_cast<std::uint64_t>(ticks_per_us);
+           left * settings_.segment_ticks < least_ahead_us_.load() * static_cast<std::uint64_t>(ticks_per_us);
 }
 
 bool LiveMachine::submit(const FeedSegment& segment, std::uint64_t line, std::uint64_t moves) {

@@ -241,6 +241,7 @@ private:
     std::string note_;     // likewise
     bool at_rest_ = true;  // at the end of the last segment,
     bool rests_ = true;    // and rest() was called behind it
+    std::atomic<std::uint64_t> least_ahead_us_{0}; // RunTarget::Signs
     std::atomic<bool> over_{false};
     // Shared:
     mutable std::mutex mutex_; // protects the members below

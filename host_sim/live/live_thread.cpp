@@ -165,6 +165,7 @@ void LiveMachine::look_at_signs(bool announces) {
         return;
     }
     RunTarget::Signs now = target_->signs();
+    least_ahead_us_.store(now.least_ahead_us);
     {
         const std::lock_guard lock(mutex_);
         now.switches.touched_mm = orders_.probe ? std::nullopt : now.switches.touched_mm; // of the one before

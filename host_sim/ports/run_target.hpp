@@ -40,8 +40,6 @@ struct TargetFacts {
     /// Its drives can be asked where they stand. false: what was told is all that is known, and they stay connected.
     bool has_feedback = true;
     bool halts = false; ///< halt() of the port stops the drives sooner than the plan could brake; else it asks for that
-    /// With less motion than this in the port it may slow down by itself, unless that is the end.
-    std::uint64_t least_ahead_us = 20'000;
     /// The axes that search together with each, by bits: a drive homes all of its own. None: it finds no reference.
     PerAxis<std::uint32_t> homes_with{};
     SwitchFacts switches{};
@@ -120,6 +118,8 @@ public:
         bool achieved = false; ///< this hold was the purpose of the run
         Stop stop{};
         Switches switches{};
+        /// With less motion than this in the port it may slow down by itself, unless that is the end.
+        std::uint64_t least_ahead_us = 20'000;
     };
 
     RunTarget() = default;

@@ -114,8 +114,7 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
 }
 
 TargetFacts GpioTarget::facts() const {
-    constexpr std::uint64_t on_its_way_us = 8'000; // from the plan to the port, by two threads
-    TargetFacts out{.has_feedback = false, .least_ahead_us = port_.steps().reserve_us() + on_its_way_us};
+    TargetFacts out{.has_feedback = false};
     for (const unsigned k : indices(machine_->settings.axes)) {
         out.homes_with[k] = map_->home[k] ? 1U << k : 0U;
     }
@@ -233,13 +232,15 @@ SwitchFacts GpioTarget::switch_facts() const {
 }
 
 RunTarget::Signs GpioTarget::signs() {
+    constexpr std::uint64_t on_its_way_us = 8'000; // from the plan to the port, by two threads
     const hal::gpio::GpioHold stop = port_.stopped_by();
     port_.take_changes();
     const CauseWords& words = words_of(stop.cause);
     Signs out{.holds = holds(),
               .achieved = port_.hold().cause == GpioCause::touched,
               .stop = {words.stop, stop.what + words.when_served},
-              .switches = {.touched_mm = port_.touched_mm()}};
+              .switches = {.touched_mm = port_.touched_mm()},
+              .least_ahead_us = port_.steps().reserve_us() + on_its_way_us};
     for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
         const hal::gpio::MappedInput& input = map_->inputs[i];
         if (port_.inputs().active(i)) {

@@ -59,7 +59,7 @@ protected:
     }
     /// Of all drives on Modbus, each axis with a home of its own.
     [[nodiscard]] TargetFacts drive_facts() const {
-        TargetFacts out{.halts = true, .least_ahead_us = 220'000};
+        TargetFacts out{.halts = true};
         for (const unsigned k : indices(machine_->settings.axes)) {
             out.homes_with[k] = 1U << k;
         }
@@ -88,6 +88,7 @@ private:
         home_ = options.home;
         port_.set_ready(options.home, options.reset, options.home_axes);
     }
+    [[nodiscard]] Signs signs() override { return {.least_ahead_us = 220'000}; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return drive_sentence(table_, failure) + unconfirmed_drives(stopped());
     }

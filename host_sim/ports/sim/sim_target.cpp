@@ -19,7 +19,7 @@ constexpr std::uint64_t give_up_every_us = 1000;
 } // namespace
 
 TargetFacts SimTarget::facts() const {
-    TargetFacts out{.has_feedback = false, .least_ahead_us = dry_us, .switches = {.probe = true, .no_home = {}}};
+    TargetFacts out{.has_feedback = false, .switches = {.probe = true, .no_home = {}}};
     for (const unsigned k : indices(machine_->settings.axes)) {
         out.homes_with[k] = 1U << k;
     }

@@ -26,6 +26,7 @@ public:
     [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
     void set_ready(const RunOptions& options) override { options_ = options; }
+    [[nodiscard]] Signs signs() override { return {.least_ahead_us = dry_us}; }
     [[nodiscard]] std::string halted(bool quick) const override;
     [[nodiscard]] std::string leave(bool /*off*/) override { return {}; }
     [[nodiscard]] std::vector<AxisPlace> places() const override;
