@@ -32,8 +32,8 @@ namespace splinefeed::host {
 /// ending() says what is true. Each step is bounded. Outputs end earlier, before the axes stand, when a drive is in
 /// fault and at the second request.
 ///
-/// Nothing moves before the state file says that its place is not known, and nobody waits for that: what begins a motion
-/// is kept back, stops go through, and what was kept back is then forgotten.
+/// Nothing moves before the state file says that its place is not known, and nobody waits for that: what begins a
+/// motion is kept back, stops go through, and what was kept back is then forgotten.
 ///
 /// If a run ends early and the planner does not return within stall_s because an output is blocked, the thread ends the
 /// process with the run's message and exit status 1. After the end of a run a signal does this at once.
@@ -237,10 +237,10 @@ private:
     std::uint32_t unlocked_axes_ = 0; // that stand where they are told to when the operator moves them: the others home
     std::optional<TargetFeed> feed_;
     // Of the planner's thread:
-    std::string sentence_; // of the last reading,
-    std::string note_;     // likewise
-    bool at_rest_ = true;  // at the end of the last segment,
-    bool rests_ = true;    // and rest() was called behind it
+    std::string sentence_;                         // of the last reading,
+    std::string note_;                             // likewise
+    bool at_rest_ = true;                          // at the end of the last segment,
+    bool rests_ = true;                            // and rest() was called behind it
     std::atomic<std::uint64_t> least_ahead_us_{0}; // RunTarget::Signs
     std::atomic<bool> over_{false};
     // Shared:

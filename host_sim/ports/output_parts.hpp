@@ -18,9 +18,9 @@ struct InputReading {
     std::uint64_t asked_us = 0; ///< on the host's clock: the level is not older
 };
 
-/// A spindle; coolant and digital outputs; digital inputs. All functions return at once, and but for act(), update() and
-/// take(), which one thread calls, they may be called by any thread. Once it has trouble, or end() was called, nothing
-/// is turned on any more, and what was on is told to stop until it confirms.
+/// A spindle; coolant and digital outputs; digital inputs. All functions return at once, and but for act(), update()
+/// and take(), which one thread calls, they may be called by any thread. Once it has trouble, or end() was called,
+/// nothing is turned on any more, and what was on is told to stop until it confirms.
 class OutputPart {
 public:
     /// Of a spindle.

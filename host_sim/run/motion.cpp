@@ -21,7 +21,7 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                PathInput& input, const PathLimits& path_limits, Outputs& outputs, LiveMachine& live)
     : asked_(arguments), description_(&description), figures_(&figures), input_(&input), outputs_(&outputs),
       live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
-                                                         input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
+                               input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
       share_(description.settings), steps_(figures, !arguments.quiet, live, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),

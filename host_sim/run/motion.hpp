@@ -135,9 +135,9 @@ private:
     double stood_s_ = 0.0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;
-    bool moves_ = false;                      // the axes move at the end of the last segment
-    bool late_ = false;                       // the last pull could not wait for input
-    std::optional<Clock::time_point> paused_; // since this time there was no input
+    bool moves_ = false;                                        // the axes move at the end of the last segment
+    bool late_ = false;                                         // the last pull could not wait for input
+    std::optional<Clock::time_point> paused_;                   // since this time there was no input
     enum class Held : std::uint8_t { no, by_user, by_machine }; // by the machine: the run ends there
     Held held_ = Held::no;
     UserSuspend suspend_;

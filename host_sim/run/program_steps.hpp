@@ -3,12 +3,12 @@
 // it has not reached yet, each with its place on the path.
 #pragma once
 
+#include "host_sim/live/live_machine.hpp"
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/path_feeder.hpp"
 #include "host_sim/program/move_source.hpp"
 #include "host_sim/report/motion_record.hpp"
-#include "host_sim/live/live_machine.hpp"
 #include "host_sim/run/user_pause.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 

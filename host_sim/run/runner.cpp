@@ -5,6 +5,9 @@
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"
+#include "host_sim/live/live_machine.hpp"
+#include "host_sim/live/output_table.hpp"
+#include "host_sim/live/target_fit.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/machine_limits.hpp"
@@ -12,13 +15,10 @@
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/target_table.hpp"
 #include "host_sim/run/motion.hpp"
-#include "host_sim/live/live_machine.hpp"
-#include "host_sim/live/output_table.hpp"
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_look.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
-#include "host_sim/live/target_fit.hpp"
 #include "host_sim/run/what_would_help.hpp"
 
 #include <algorithm>
@@ -116,7 +116,8 @@ Connected connect(const RunArguments& arguments, RunMachine& of, PathInput& inpu
 
 /// For those who think that the machine of their file moves.
 void note_simulation(const RunArguments& arguments, const MachineDescription& machine) {
-    if (!target_kind(arguments.target).is_real && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
+    if (!target_kind(arguments.target).is_real && arguments.motion.enforce && !arguments.motion.quiet &&
+        machine.has_drives()) {
         tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
              printable(machine.file));
     }
@@ -133,7 +134,8 @@ MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMach
 bool finds_help(const RunArguments& arguments, const PathInput& input, const Summary& summary) {
     const bool is_told =
         !arguments.outputs.report.empty() || arguments.result != nullptr || arguments.summary != SummaryKind::none;
-    return arguments.helps && !target_kind(arguments.target).is_real && input.repeatable() && summary.optimum_time_s && is_told;
+    return arguments.helps && !target_kind(arguments.target).is_real && input.repeatable() && summary.optimum_time_s &&
+           is_told;
 }
 
 void find_help(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Motion& motion,

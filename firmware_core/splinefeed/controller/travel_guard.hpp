@@ -7,8 +7,8 @@
 
 namespace splinefeed {
 
-/// The same law as that of a run (travel_allowance_mm). Cost: a comparison for each Bezier point; near the end of travel
-/// a segment is halved until it is decided.
+/// The same law as that of a run (travel_allowance_mm). Cost: a comparison for each Bezier point; near the end of
+/// travel a segment is halved until it is decided.
 template <Scalar S>
 class TravelGuard final : public CurveSource<S> {
 public:

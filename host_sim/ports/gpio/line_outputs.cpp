@@ -60,8 +60,7 @@ public:
 
     [[nodiscard]] Progress progress() const override {
         const std::lock_guard lock(mutex_);
-        const bool has_speed =
-            on_ == 0 || (passed(spindle_->spin_up_s) && (!spindle_->at_speed || at_speed_));
+        const bool has_speed = on_ == 0 || (passed(spindle_->spin_up_s) && (!spindle_->at_speed || at_speed_));
         return {.carried_out = !ended_ && trouble_.empty() && on_ == wanted_ && has_speed,
                 .stands = !is_on_ || (on_ == 0 && obeys_ && passed(spindle_->spin_down_s)),
                 .stop_timeout_s = spindle_->spin_down_s + 0.5};

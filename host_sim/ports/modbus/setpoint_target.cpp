@@ -150,9 +150,10 @@ TargetFacts SetpointTarget::facts() const {
         const bool homes = !table_.drives[i].profile.steps_of(hal::modbus::DriveCommand::home).empty();
         out.switches.homes |= homes ? 1U << axis : 0U;
     }
-    out.note = fmt::format("the drives get a target position every {:.2f} ms; between two targets the machine may be up "
-                           "to {:.1f} um off the path",
-                           port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
+    out.note =
+        fmt::format("the drives get a target position every {:.2f} ms; between two targets the machine may be up "
+                    "to {:.1f} um off the path",
+                    port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
     return out;
 }
 

@@ -82,8 +82,7 @@ hal::PortState SimTarget::poll() noexcept {
     if (queue_.empty()) {
         time_ticks_ = now;
     }
-    while (!queue_.empty() && phase_ == hal::PortPhase::running &&
-           time_ticks_ + queue_.front().duration_ticks <= now) {
+    while (!queue_.empty() && phase_ == hal::PortPhase::running && time_ticks_ + queue_.front().duration_ticks <= now) {
         const FeedSegment segment = queue_.front();
         queue_.pop_front();
         queued_ticks_ -= segment.duration_ticks;
@@ -154,13 +153,9 @@ extern const TargetKind sim_kind{
     .help = "sim: the simulated machine in this process (default)",
     .is_real = false,
     .is = [](const std::string& target) { return target == "sim"; },
-    .check =
-        [](const std::string& /*target*/) {
-        },
-    .make = [](const std::string& /*target*/, const MachineDescription& machine,
-               const RunOptions& options) -> std::unique_ptr<RunTarget> {
-        return std::make_unique<SimTarget>(machine, options);
-    },
+    .check = [](const std::string& /*target*/) {},
+    .make = [](const std::string& /*target*/, const MachineDescription& machine, const RunOptions& options)
+        -> std::unique_ptr<RunTarget> { return std::make_unique<SimTarget>(machine, options); },
     .report = nullptr,
 };
 
