@@ -28,7 +28,10 @@ TEST_CASE("G95: the feed is F for each turn of the spindle at the speed that was
     CHECK(run.push("G95 X8").error == ProgramError::feed_missing);
     CHECK(run.text("M2") != "");
     CHECK_FALSE(run.interpreter().modal().per_turn);
-    CHECK(run.interpreter().modal().feed.raw == 0);
+    CHECK(run.interpreter().modal().feed == Decimal::from_integer(1524)); // F of G94 stays, one of G95 does not
+    GcodeRun<double> turning;
+    CHECK(turning.text("G95 S600 M3 G1 X1 F0.25 M30") != "");
+    CHECK(turning.interpreter().modal().feed.raw == 0);
 }
 
 TEST_CASE("G33 travels K for each turn, along the line", "[program][turning]") {

@@ -209,7 +209,6 @@ private:
     ArcPlan tool_arc_{};
     SurfacePath surface_{};
     Decimal told_speed_{};                     // of the spindle, by the last event
-    bool settles_ = false;                     // behind a rapid under G96 the spindle is to be waited for
     const MoveManner* manner_ = &plan_.manner; // of the item that next() gives
     std::uint32_t item_line_ = 0;
     CycleWords cycle_words_{};
@@ -219,6 +218,7 @@ private:
     std::uint32_t line_ = 0;
     std::uint8_t stage_ = 0;    // of the block, in the order of execution
     std::uint8_t sub_step_ = 0; // of its motion
+    bool settles_ = false;      // behind a rapid under G96 the spindle is to be waited for
     bool offsets_changed_ = false;
     bool percent_ = false; // the first line was %
     bool any_block_ = false;
