@@ -27,7 +27,7 @@ struct MachineState {
 struct StateOwner {
     std::vector<std::string> axes{};
     std::string machine{}; ///< its name
-    std::string target{};  ///< what moves: "sim", "modbus", "gpio"
+    std::string target{};  ///< what moves: the kind of the target
 };
 
 /// Nothing: there is no such file. Throws InputError where it is no state file or that of a machine with other axes,

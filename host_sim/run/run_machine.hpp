@@ -26,7 +26,7 @@ struct RunMachine {
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
     /// @param homed  it finds its references first: then it stands at 0, whatever the state says
     [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
-    /// Whose state a run with that target keeps. @param target  "sim", "modbus", "gpio:///dev/gpiochip0?map=..."
+    /// Whose state a run with that target keeps. @param target  "modbus", "gpio:///dev/gpiochip0?map=..."
     [[nodiscard]] StateOwner owner(const std::string& target) const {
         return {axes, machine.name, target.substr(0, target.find(':'))};
     }

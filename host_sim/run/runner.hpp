@@ -31,7 +31,7 @@ struct RunArguments {
     std::string machine;                           ///< empty: not named; MachineChoice
     std::vector<std::string> settings{};           ///< of --set
     std::optional<MachineDescription> described{}; ///< in the place of `machine`
-    std::string target = "sim";                    ///< "sim": only the simulated machine; or "modbus", or an address
+    std::string target = "sim";                    ///< only the simulated machine; or "modbus", or an address
     std::string state;                             ///< file of offsets and position; empty: none
     std::string position;                          ///< where the machine stands, "X,Y,Z"; empty: as the state says
     RunOptions options;

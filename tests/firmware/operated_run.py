@@ -38,7 +38,7 @@ class Bench:
         self.board = Board(image, folder, machine)
         self.sender = BoardSender(self.board)
         self.name = image.rsplit("firmware_", 1)[1].removesuffix(".elf")
-        self.expect("", GREETING)
+        self.expect("[MSG:The board has started: *", "", GREETING)
 
     def expect(self, *lines):
         for line in lines:

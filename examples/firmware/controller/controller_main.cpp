@@ -120,15 +120,16 @@ int main() {
     board::start();
     Steps& generator = steps.build(parts.build(), lookahead);
     line.build();
-    stepper.build(generator);
+    const bool by_watchdog = board::watchdog_bit(); // in motion, as a rule
+    stepper.build(generator, !by_watchdog);
     motion.build(operator_settings, *limits, planner.build(window.build()), path_rules,
                  curve_memory<board::curves_through_points>());
     controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
     board::start_timer();
     board::start_watchdog();
-    if (board::watchdog_bit()) {
-        line->send(std::string_view("[MSG:The watchdog has reset the board]\r\n"));
-    }
+    line->send(by_watchdog
+                   ? std::string_view("[MSG:The watchdog has reset the board: where the axes stand is lost]\r\n")
+                   : std::string_view("[MSG:The board has started: where the axes stand counts as 0]\r\n"));
     controller->connect();
     Clock clock;
     for (;;) {

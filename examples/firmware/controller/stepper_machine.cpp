@@ -85,6 +85,7 @@ MachineReading StepperMachine::read() noexcept {
     const Stop stop = steps_.stopped(); // an emergency stop as long as it is pressed
     out.stands = !has_stopped_ && (stop == Stop::none || stop == Stop::estop) && steps_.stands();
     out.inputs = (inputs_.limit ? all_limits : 0U) | (inputs_.estop ? InputBits::emergency_stop : 0U);
+    out.known = known_;
     out.alarm = alarm_;
     if (alarm_ == Alarm::lines_lost) {
         out.alarm_sentence = "A byte from the sender was damaged or lost: look at the cable and its rate";

@@ -15,7 +15,8 @@ using Steps = StepGenerator<axes>;
 /// by the emergency stop, or by a second reset, may.
 class StepperMachine final : public splinefeed::ControlledMachine {
 public:
-    explicit StepperMachine(Steps& steps) noexcept : steps_(steps) {}
+    /// @param known  false: the steps that were made are lost, and $X has to unlock the machine
+    StepperMachine(Steps& steps, bool known) noexcept : steps_(steps), known_(known) {}
 
     /// Once in a round of the main loop, before the controller is called.
     /// @param inputs  as the last tick read them   @param bytes_lost  by the UART
@@ -51,6 +52,7 @@ private:
     std::uint32_t waypoint_ = 0;  // of that
     static_assert(board::parts < 256, "the generator knows as many digits of a waypoint");
     splinefeed::Alarm alarm_ = splinefeed::Alarm::none;
+    bool known_;
     bool has_stopped_ = false; // on the path, as this round shows: where it stands is to be asked for
 };
 

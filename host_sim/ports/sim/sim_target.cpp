@@ -13,6 +13,7 @@ namespace splinefeed::host {
 
 namespace {
 
+constexpr std::string_view name = "sim";
 constexpr std::uint64_t homing_us = 500'000;
 constexpr std::uint64_t give_up_every_us = 1000;
 
@@ -149,10 +150,10 @@ OutputPart::Progress SimSpindle::progress() const {
 }
 
 extern const TargetKind sim_kind{
-    .names = "sim",
+    .names = name,
     .help = "sim: the simulated machine in this process (default)",
     .is_real = false,
-    .is = [](const std::string& target) { return target == "sim"; },
+    .is = [](const std::string& target) { return target == name; },
     .check = [](const std::string& /*target*/) {},
     .make = [](const std::string& /*target*/, const MachineDescription& machine, const RunOptions& options)
         -> std::unique_ptr<RunTarget> { return std::make_unique<SimTarget>(machine, options); },
