@@ -76,6 +76,11 @@ public:
         out.switches = {.homes = static_cast<std::uint32_t>(world_->number("homes", 7)), .no_home = {}};
         return out;
     }
+    void check(const MachineDescription& /*machine*/, double segment_us) const override {
+        if (world_->is("slow")) {
+            throw UsageError("its registers do not hold that in {:g} us", segment_us);
+        }
+    }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
     void set_ready(const RunOptions& options) override { options_ = options; }
     [[nodiscard]] Signs signs() override {
