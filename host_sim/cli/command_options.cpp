@@ -322,7 +322,8 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     serve->footer(
         "Example: splinefeed serve -m three_axis.toml --tcp 127.0.0.1:2300 --pty /tmp/machine\n"
         "It prints one line for each place. With a terminal as its input it takes lines and words there: type "
-        "help. Ctrl-C brakes and ends it, a second one stops at once.");
+        "help. Ctrl-C brakes and ends it, a second one stops at once. Exit status: 1 if something may still move, turn "
+        "or be on; 2 bad input or usage, or a state file that cannot be written.");
     for (CLI::App* const command : app.get_subcommands([](CLI::App* /*command*/) { return true; })) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name("");           // the descriptions say what a value may be

@@ -258,7 +258,7 @@ void LiveMachine::home(std::uint32_t axes) noexcept {
 
 bool LiveMachine::halt() noexcept {
     const std::lock_guard lock(mutex_);
-    const bool halts = submitted_ != finished_ && facts_.halts;
+    const bool halts = submitted_ != finished_ && (facts_.halts || waits_);
     orders_.stops = halts ? std::max(orders_.stops, 1) : orders_.stops;
     return halts;
 }

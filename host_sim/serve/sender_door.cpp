@@ -264,6 +264,7 @@ private:
         if (!sender->guard.take({bytes.data(), size}, through)) {
             events_.noted(
                 fmt::format("{} is no sender (HTTP, TLS, STUN, or no text): nothing of it was executed", sender->name));
+            stop(sender, through);
             drop(sender);
             return;
         }
@@ -279,7 +280,7 @@ private:
         for (const RealtimeByte byte : sender->stops.take(bytes)) {
             events_.stopped(byte);
             if (!std::exchange(sender->stopped, true)) {
-                events_.noted(fmt::format("{}, which was refused, stops the machine", sender->name));
+                events_.noted(fmt::format("{}, which has not got the machine, stops it", sender->name));
             }
         }
     }

@@ -30,7 +30,7 @@ bool is_http(std::string_view line) {
 
 bool SenderGuard::take(std::string_view bytes, std::string& out) {
     for (const char c : bytes) {
-        if (passed_ || (first_.empty() && acts(c))) {
+        if (passed_ || (first_.empty() && acts(c)) || realtime_byte(static_cast<std::uint8_t>(c)).stops) {
             out += c;
             continue;
         }
@@ -50,22 +50,13 @@ bool SenderGuard::take(std::string_view bytes, std::string& out) {
     return true;
 }
 
+// Those act within a comment, too.
 std::vector<RealtimeByte> StopBytes::take(std::string_view bytes) {
     std::vector<RealtimeByte> out;
     for (const char c : bytes) {
-        const auto byte = static_cast<std::uint8_t>(c);
-        if (left_ > 0 && (byte & 0xc0U) == 0x80U) {
-            --left_;
-            continue;
-        }
-        left_ = byte < 0xc3 || byte > 0xf4 ? 0 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
-        switch (const RealtimeByte meaning = realtime_byte(byte); meaning.kind) {
-        case RealtimeKind::hold:
-        case RealtimeKind::reset:
-        case RealtimeKind::stop:
-        case RealtimeKind::door:
-        case RealtimeKind::jog_cancel: out.push_back(meaning); break;
-        default: break;
+        const RealtimeByte byte = bytes_.take(static_cast<std::uint8_t>(c), true);
+        if (byte.stops) {
+            out.push_back(byte);
         }
     }
     return out;

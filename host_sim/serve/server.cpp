@@ -137,10 +137,19 @@ void Server::type(std::string_view line) {
         tell("{}", order.text);
     }
     leaves_ = leaves_ || order.leaves;
-    if (!order.bytes.empty() && !order.stops && door_->has_sender()) {
-        tell("a sender has the machine: hold, reset, cancel and status are taken here\n");
-    } else if (!order.bytes.empty()) {
+    if (order.bytes.empty() || !door_->has_sender()) {
         controller_.receive(order.bytes, now_ms());
+        return;
+    }
+    if (!order.stops) {
+        tell("a sender has the machine: hold, reset, cancel and status are taken here\n");
+    }
+    RealtimeBytes bytes; // beside those of the sender
+    for (const char c : order.bytes) {
+        const RealtimeByte byte = bytes.take(static_cast<std::uint8_t>(c), !order.stops);
+        if (byte.stops || order.stops) {
+            controller_.act(byte);
+        }
     }
 }
 
@@ -162,7 +171,7 @@ void Server::obey(SignalWatch& signals) {
     }
 }
 
-// A search for references is not held: the process stops behind it.
+// A search for references is stopped by that.
 void Server::suspend() {
     if (leaves_) {
         suspend_.forget();

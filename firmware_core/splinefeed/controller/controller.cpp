@@ -42,15 +42,16 @@ void Controller::connect() noexcept {
 
 void Controller::disconnect() noexcept {
     drop_partial();
+    cancel_jog();
     const ControllerState now = state();
-    if (now == ControllerState::run || now == ControllerState::jog || now == ControllerState::home) {
+    if (now == ControllerState::run || now == ControllerState::home || mode_ == Mode::closing) {
         hold();
     }
-    if (ending_ != Ending::none) { // what would begin behind that has nobody to watch it
+    if (ending_ != Ending::none || is_locked()) { // what would begin behind that has nobody to watch it
         forget_lines();
     }
     alone_ = true;
-    byte_ms_ = now_ms_;
+    left_ms_ = now_ms_;
 }
 
 void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept {
@@ -67,6 +68,7 @@ void Controller::receive(std::string_view bytes, std::uint32_t now_ms) noexcept 
         } else {
             act(byte);
         }
+        left_ms_ = byte.kind != RealtimeKind::nothing ? now_ms : left_ms_;
     }
 }
 
@@ -121,8 +123,17 @@ void Controller::toggle(EventKind coolant) noexcept {
     }
 }
 
-void Controller::hold() noexcept {
+// Where a stop finds no motion that it could hold, what has come before it does not begin either.
+void Controller::stop_waiting() noexcept {
     cancel_jog();
+    if (jogging_ || ending_ != Ending::none || is_locked()) {
+        refused_lines_ = lines_.lines();
+        refusal_ = LineError::locked;
+    }
+}
+
+void Controller::hold() noexcept {
+    stop_waiting();
     if (task_ == Task::home) {
         stop_quickly(Alarm::homing_reset);
     } else if (!jogging_ && !is_locked() && ending_ == Ending::none && take(ModeEvent::hold)) {
@@ -153,8 +164,10 @@ void Controller::resume() noexcept {
 void Controller::open_door() noexcept {
     if (task_ == Task::home) {
         stop_quickly(Alarm::homing_door);
-    } else if (!is_locked() && take(ModeEvent::door)) {
-        cancel_jog();
+    } else if (is_locked()) {
+        stop_waiting();
+    } else if (take(ModeEvent::door)) {
+        stop_waiting();
         motion_->hold();
         spindle_.suspend();
     }

@@ -85,6 +85,7 @@ private:
 
     // controller.cpp
     void greet() noexcept;
+    void stop_waiting() noexcept;
     void hold() noexcept;
     void resume() noexcept;
     void open_door() noexcept;
@@ -168,6 +169,7 @@ private:
     StoredLine line_{};
     std::uint32_t now_ms_ = 0;
     std::uint32_t byte_ms_ = 0;  // when the last byte came
+    std::uint32_t left_ms_ = 0;  // when the last sender has gone, or the last byte came that does something
     std::uint32_t line_ms_ = 0;  // when the last line came
     std::uint32_t block_ms_ = 0; // when the last block was executed
     std::uint32_t until_ms_ = 0; // end of a dwell

@@ -103,7 +103,7 @@ struct DollarCommands {
             }
             c.answers_.put(": ").put(c.settings_->no_home).put(']').end_line();
             c.refuse(LineError::no_homing);
-        } else if (!ready || c.reading_.alarm != Alarm::none) {
+        } else if (!ready || c.reading_.alarm != Alarm::none || (c.reading_.inputs & InputBits::door) != 0) {
             c.refuse(LineError::not_now);
         } else {
             c.task_ = Controller::Task::home;
@@ -133,7 +133,8 @@ struct DollarCommands {
         c.accept();
         c.say("Sleeping");
         c.spindle_.stop_all();
-        c.locked_ = c.take(ModeEvent::sleep);
+        c.take(ModeEvent::sleep);
+        c.locked_ = true;
         c.machine_->enable(false);
     }
     static void clear_offsets(Controller& c, TextCursor& /*rest*/) noexcept {

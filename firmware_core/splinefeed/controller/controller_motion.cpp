@@ -87,7 +87,7 @@ void Controller::watch() noexcept {
         cancel_jog();
     }
     const std::uint32_t most_ms = settings_->unattended_ms;
-    if (alone_ && spindle_.is_on() && most_ms > 0 && now_ms_ - byte_ms_ > most_ms) {
+    if (alone_ && spindle_.is_on() && most_ms > 0 && now_ms_ - left_ms_ > most_ms) {
         hold();
         holds() ? spindle_.suspend() : spindle_.stop_all(); // in a hold '~' starts them again
     }
@@ -95,7 +95,7 @@ void Controller::watch() noexcept {
         task_ = Task::touched;
         motion_->abort();
     }
-    if ((reading_.inputs & InputBits::door) != 0) {
+    if ((reading_.inputs & InputBits::door) != 0 && (task_ == Task::home || !is_locked())) {
         open_door();
     }
     if (mode_ == Mode::closing && spindle_.settles()) {

@@ -58,7 +58,7 @@ enum class ModeEvent : std::uint8_t { hold, tool, door, resume, settled, check, 
         {held, tool, door, ready, tool, tool, tool, ready, ready, ready},            // tool
         {door, door, door, closing, door, door, door, door, ready, ready},           // door
         {held, closing, door, closing, ready, closing, closing, door, ready, ready}, // closing
-        {check, check, check, check, check, check, check, check, check, ready},      // check
+        {check, check, check, check, check, check, sleep, check, check, ready},      // check
         {sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, ready},      // sleep
     };
     return table[static_cast<unsigned>(mode)][static_cast<unsigned>(event)];

@@ -54,11 +54,14 @@ bool SpindleOrders::obey(const ProgramEvent& event) noexcept {
     switch (event.kind) {
     case EventKind::spindle_speed:
     case EventKind::surface_speed:
+    {
+        const bool stood = told_rpm().raw == 0;
         rpm_ = event.value;
-        if (state_ != SpindleState::stopped) {
-            tell_spindle();
+        if (state_ != SpindleState::stopped) { // from S0, and to it, motion waits
+            stood == (told_rpm().raw == 0) ? tell_spindle() : order_spindle();
         }
         return true;
+    }
     case EventKind::spindle_clockwise: state_ = SpindleState::clockwise; break;
     case EventKind::spindle_counterclockwise: state_ = SpindleState::counterclockwise; break;
     case EventKind::spindle_stop: state_ = SpindleState::stopped; break;

@@ -112,8 +112,8 @@ PortFailure GpioPort::home(const FeedSegment& first) {
     return failure;
 }
 
-// A motion that begins a little beside the middle between two counts begins at the count where its axis stands, which
-// may be the other one: no step is lost however often that happens.
+// A motion that begins a little beside the middle between two counts begins at the count where its axis stands. That
+// may be the other one: no step is lost however often it happens.
 bool GpioPort::align(const FeedSegment& first) {
     constexpr std::int64_t half = units_per_count / 2;
     constexpr std::int64_t most = units_per_count / 100;
@@ -214,7 +214,8 @@ void GpioPort::close() noexcept {
 }
 
 void GpioPort::hold(GpioCause cause, const std::string& what) {
-    if (hold_.cause == GpioCause::none) {
+    const bool worse = cause >= GpioCause::drive_fault && cause > hold_.cause; // than what the plan brakes for
+    if (hold_.cause == GpioCause::none || worse) {
         hold_ = {cause, what};
     }
 }
