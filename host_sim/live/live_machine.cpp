@@ -61,9 +61,10 @@ void LiveMachine::start() {
 
 // The thread is over behind it; each step of its end is bounded.
 void LiveMachine::leave() noexcept {
-    leaves_.store(true);
-    if (is_real() && serves()) {
-        gives_up_.store(true);
+    {
+        const std::lock_guard lock(mutex_);
+        leaves_.store(true);
+        gives_up_.store(gives_up_.load() || (is_real() && serves()));
     }
     if (thread_ != nullptr) {
         thread_->join();
@@ -121,9 +122,10 @@ void LiveMachine::begin_to_move() {
         if (settings_.state == nullptr || std::exchange(moves_, true)) {
             return;
         }
-        waits_ = true;
     }
     settings_.state->moves();
+    const std::lock_guard lock(mutex_);
+    waits_ = true; // behind that, and before anything is there that could move
 }
 
 void LiveMachine::keep() {
@@ -161,9 +163,9 @@ void LiveMachine::rest() {
 
 void LiveMachine::stop(const std::string& why) {
     const std::lock_guard lock(mutex_);
-    if (orders_.stops == 0 && !(rests_ && at_rest_)) {
-        stop_why_ = why;
-        orders_.stops = 1;
+    if (!(rests_ && at_rest_)) {
+        stop_why_ = stop_why_.empty() ? why : stop_why_;
+        orders_.stops = std::max(orders_.stops, 1);
     }
 }
 
@@ -171,6 +173,10 @@ void LiveMachine::order(const ProgramAction& action, bool standing) {
     if (is_real()) {
         feed_->order(action, standing);
     }
+}
+
+bool LiveMachine::spindle_stands() const {
+    return !is_real() || (feed_->spindle_stands() && settings_.clock->now_us() >= stands_from_us_.load());
 }
 
 LiveMachine::Reached LiveMachine::reached() const {
@@ -205,7 +211,7 @@ MachineReading LiveMachine::read() noexcept {
     MachineReading out;
     out.stands = stands();
     out.spindle_ready = feed_->carried_out();
-    out.spindle_stands = feed_->spindle_stands();
+    out.spindle_stands = spindle_stands();
     out.input = feed_->answer();
     const std::lock_guard lock(mutex_);
     out.executes = !out.stands && feed_->executed() < feed_->pushed();

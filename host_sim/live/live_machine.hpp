@@ -27,13 +27,13 @@ namespace splinefeed::host {
 /// on. A run has one motion. Its end is the machine's, whatever the reason: everything was executed, a signal, the
 /// target, the outputs' own trouble, a plan that was given up with stop(), an exception of the target.
 ///
-/// A machine ends once, and in this order: all axes are held and stand, the outputs of the program - spindle, coolant,
-/// digital outputs - have ended, the drives are left as the machine file says, the state file has their places, and
-/// ending() says what is true. Each step is bounded. Outputs end earlier, before the axes stand, when a drive is in
-/// fault and at the second request.
+/// A machine ends once. All axes are held and stand, the outputs of the program - spindle, coolant, digital outputs -
+/// are told to end, and the drives are left as the machine file says. Then the outputs have ended, the state file has
+/// the places, and ending() says what is true. Each step is bounded. Outputs end earlier, before the axes stand, when a
+/// drive is in fault and at the second request.
 ///
-/// Nothing moves before the state file says that its place is not known, and nobody waits for that: what begins a
-/// motion is kept back, stops go through, and what was kept back is then forgotten.
+/// Nothing moves before the state file says that its place is not known. Nobody waits for that: what begins a motion is
+/// kept back, stops go through, and what was kept back is then forgotten.
 ///
 /// If a run ends early and the planner does not return within stall_s because an output is blocked, the thread ends the
 /// process with the run's message and exit status 1. After the end of a run a signal does this at once.
@@ -48,7 +48,7 @@ public:
     struct Settings {
         std::uint32_t segment_ticks = 0;          ///< of its plans
         SignalWatch* signals = nullptr;           ///< of a run, which has one motion; null: it is served
-        StateKeeper* state = nullptr;             ///< null: nothing is kept
+        StateKeeper* state = nullptr;             ///< null: nothing is kept. Of a server it writes behind
         TargetRecord* record = nullptr;           ///< null: nobody looks
         bool simulates = false;                   ///< it has all outputs that are asked for, as in a simulated run
         PerAxis<double> told_mm{};                ///< where axes stand that do not know it
@@ -106,7 +106,7 @@ public:
     /// The answer of the last M66: 0 or 1, -1 after its time-out. @pre it was ordered, and carried_out()
     [[nodiscard]] int input() const { return feed_->answer(); }
     /// Whether the spindle is known to stand.
-    [[nodiscard]] bool spindle_stands() const { return !is_real() || feed_->spindle_stands(); }
+    [[nodiscard]] bool spindle_stands() const;
 
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return is_real() && feed_->hold_asked(); }
@@ -243,6 +243,7 @@ private:
     bool rests_ = true;                            // and rest() was called behind it
     std::atomic<std::uint64_t> least_ahead_us_{0}; // RunTarget::Signs
     std::atomic<bool> over_{false};
+    std::atomic<std::uint64_t> stands_from_us_{0}; // the spindle of outputs that are gone
     // Shared:
     mutable std::mutex mutex_; // protects the members below
     Orders orders_;
@@ -257,15 +258,16 @@ private:
     std::vector<RunTarget::AxisPlace> kept_places_; // that the state has
     // Of the thread, and after over_ of any thread:
     Phase phase_ = Phase::closed;
-    RunOptions options_{.stays = true};
+    RunOptions options_{.interrupted = &LiveMachine::gives_up, .stays = true};
     std::uint64_t looked_us_ = 0;    // where it stands
     std::uint64_t heard_us_ = 0;     // of all drives
     std::uint64_t seen_ = 0;         // segments that were executed,
     std::uint64_t moved_us_ = 0;     // when that changed
     std::atomic<bool> stalls_{true}; // it has not for a while: the port waits for more, or has not begun
-    std::string lost_outputs_;       // what outputs had not confirmed that could not be made anew
-    std::string reason_;             // why a run ends; empty: all was executed
-    bool ends_ = false;              // the run does
+    std::uint64_t coasts_until_us_ = 0;
+    std::string lost_outputs_; // what outputs had not confirmed that could not be made anew
+    std::string reason_;       // why a run ends; empty: all was executed
+    bool ends_ = false;        // the run does
     std::string ending_;
     std::string where_;
     std::atomic<bool> leaves_{false}; // the planner's thread needs no other thread any more

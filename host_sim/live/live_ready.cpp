@@ -80,6 +80,7 @@ hal::PortFailure LiveMachine::make_ready(const FeedSegment& first) {
         return failure;
     }
     options_.reset = options_.home = false;
+    heard_us_ = settings_.clock->now_us();
     phase_ = Phase::ready;
     feed_->begin(port.poll().executed);
     return {};
@@ -120,7 +121,7 @@ void LiveMachine::switch_off() {
     close();
 }
 
-// Behind a fault, or with drives that were off: everything anew, and their faults are reset.
+// Behind a fault, or with drives that were off: everything anew, and their faults are reset. What was on is on again.
 void LiveMachine::recover(bool resets) {
     if (outputs_ == nullptr || feed_->outputs_ended() || !feed_->trouble().empty()) {
         renew_outputs();
@@ -143,15 +144,19 @@ void LiveMachine::recover(bool resets) {
 
 // Once they have ended they take no order any more. What they had not confirmed by then is said at the end, if nobody
 // can be connected to any more.
+// Those that are made do not know what turned before them.
 void LiveMachine::renew_outputs() {
     feed_->set_outputs(nullptr);
     if (outputs_ != nullptr) {
         outputs_->end();
         lost_outputs_ = outputs_->unended();
+        coasts_until_us_ = settings_.clock->now_us() + outputs_->coasts_us();
     }
+    stands_from_us_.store(lost_outputs_.empty() ? coasts_until_us_ : UINT64_MAX);
     outputs_.reset();
     outputs_.reset(make_outputs_().release());
     lost_outputs_.clear();
+    stands_from_us_.store(coasts_until_us_);
     feed_->set_outputs(outputs_.get());
 }
 

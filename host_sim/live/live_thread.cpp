@@ -80,7 +80,7 @@ bool LiveMachine::may_move() {
     {
         const std::lock_guard lock(mutex_);
         if (!waits_) {
-            return true;
+            return submitted_ != finished_; // what comes within this look is for the next one
         }
     }
     try {
@@ -88,7 +88,7 @@ bool LiveMachine::may_move() {
         const std::lock_guard lock(mutex_);
         waits_ = !kept;
         return kept;
-    } catch (const OutputError& error) { // what waits is forgotten
+    } catch (const std::exception& error) { // what waits is forgotten
         give_up_homing();
         fail(error.what());
         return false;
@@ -268,6 +268,8 @@ void LiveMachine::fail(const std::string& sentence, Alarm alarm) {
     try {
         static_cast<void>(looks && look_where(true));
     } catch (const std::exception&) { // it may be why
+        const std::lock_guard lock(mutex_);
+        known_.axes = 0;
     }
     {
         const std::lock_guard lock(mutex_);
@@ -287,6 +289,8 @@ void LiveMachine::drop_motion() {
 void LiveMachine::finish_motion() {
     const std::lock_guard lock(mutex_);
     finished_ = feed_->taken();
+    known_.note.clear();
+    heard_us_ = settings_.clock->now_us();
     orders_.stops = finished_ == submitted_ ? 0 : orders_.stops;
     known_.speed_mm_s = 0.0;
 }
@@ -381,6 +385,9 @@ void LiveMachine::end() noexcept {
     };
     const bool began = phase_ == Phase::ready || phase_ == Phase::failed || (serves() && !facts_.has_feedback);
     std::vector<RunTarget::AxisPlace> places;
+    for (const unsigned k : indices(began ? machine_->settings.axes : 0)) { // where nobody can say it
+        places.push_back({k, std::nullopt});
+    }
     feed_->end_outputs();
     if (!serves()) {
         feed_->set_trouble(outputs_ != nullptr ? outputs_->trouble() : std::string());
@@ -399,7 +406,7 @@ void LiveMachine::end() noexcept {
         known_.places = places;
     }
     if (serves()) {
-        step([&] { keep(); });
+        step([&] { stands() ? keep() : void(); });
         target_->port().close();
     } else {
         if (settings_.state != nullptr) {

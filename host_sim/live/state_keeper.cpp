@@ -48,7 +48,7 @@ void StateKeeper::write() {
 // What was said while it wrote is written as one.
 void StateKeeper::work() {
     std::unique_lock lock(mutex_);
-    while (!over_ && !failure_) {
+    while (!failure_ && !(over_ && written_ == said_)) {
         if (written_ == said_) {
             changed_.wait(lock);
             continue;

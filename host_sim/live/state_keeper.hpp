@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StateKeeper: keeps the state file of a machine true while a run moves it.
+// StateKeeper: keeps the state file of a machine true while it moves.
 #pragma once
 
 #include "host_sim/config/state_file.hpp"
@@ -28,7 +28,7 @@ public:
     StateKeeper(const StateFile& file, MachineState begins, Writes writes = Writes::at_once);
     StateKeeper(const StateKeeper&) = delete;
     StateKeeper& operator=(const StateKeeper&) = delete;
-    /// Waits for what is being written.
+    /// Waits until all that was said is written, or cannot be.
     ~StateKeeper();
 
     /// Something is about to move. If this throws, or before this is kept, it must not: nobody could be told where it

@@ -188,6 +188,7 @@ std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
         }
     } catch (const std::exception& error) {
         set_trouble(error.what());
+        ask(1); // before outputs are told anything more
         state = port_->poll();
     }
     executed_.store(began_at_ + (state.executed - done_before_));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OutputPart: what events of programs act on or wait for in a run on a real target, of one kind on one kind of wire.
+// OutputPart: what events of programs act on or wait for of one kind on one kind of wire.
 #pragma once
 
 #include "host_sim/program/program_action.hpp"
@@ -28,6 +28,7 @@ public:
         bool carried_out = true;     ///< it has its speed, or has taken the order to stop. Never after end()
         bool stands = true;          ///< it is known to: it was never told to turn, or has confirmed its standstill
         double stop_timeout_s = 0.0; ///< how long it may take to come to a standstill
+        double coasts_s = 0.0;       ///< behind its end, where nobody can ask it whether it stands
     };
 
     OutputPart() = default;

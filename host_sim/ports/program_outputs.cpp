@@ -82,8 +82,14 @@ OutputPart::Progress ProgramOutputs::progress() const {
         out.carried_out = out.carried_out && of.carried_out;
         out.stands = out.stands && of.stands;
         out.stop_timeout_s = std::max(out.stop_timeout_s, of.stop_timeout_s);
+        out.coasts_s = std::max(out.coasts_s, of.coasts_s);
     }
     return out;
+}
+
+std::uint64_t ProgramOutputs::coasts_us() const {
+    const OutputPart::Progress spindle = progress();
+    return spindle.stands ? 0 : static_cast<std::uint64_t>(std::llround(spindle.coasts_s * 1e6));
 }
 
 std::string ProgramOutputs::trouble() const {

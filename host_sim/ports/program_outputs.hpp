@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ProgramOutputs: everything that the events of a program act on or wait for in a run on a real target: spindle,
+// ProgramOutputs: everything that the events of a program act on or wait for: spindle,
 // coolant, digital outputs and inputs. InputQuestion: how M66 waits for an input, and its answer.
 #pragma once
 
@@ -54,6 +54,8 @@ public:
     [[nodiscard]] bool reached() const { return !asks_.load() && progress().carried_out; }
     /// What the last input answered: its level as 0 or 1, -1 after the time-out.
     [[nodiscard]] int answer() const noexcept { return answer_.load(); }
+    /// How long the spindle goes on turning that is not known to stand, behind end(), where only its own part knows it.
+    [[nodiscard]] std::uint64_t coasts_us() const;
     /// Stops the spindle, turns the coolant off, and makes the outputs safe, for good.
     void end();
     /// Why something is not as ordered; empty: all is.

@@ -30,7 +30,7 @@ bool is_http(std::string_view line) {
 
 bool SenderGuard::take(std::string_view bytes, std::string& out) {
     for (const char c : bytes) {
-        if (passed_ || (first_.empty() && acts(c)) || realtime_byte(static_cast<std::uint8_t>(c)).stops) {
+        if (passed_ || (first_.empty() && acts(c))) {
             out += c;
             continue;
         }

@@ -12,12 +12,12 @@ namespace splinefeed::host {
 
 /// Any page of the web can make a browser send bytes to a port of its own computer. They come behind an HTTP request, a
 /// greeting of TLS, or the length of a STUN message. A sender's first byte may act at once, and its first line is text.
-/// So nothing but stops acts before the end of that, and a byte that no line has ends the connection.
+/// So nothing acts before the end of that, and a byte that no line has ends the connection.
 class SenderGuard {
 public:
     static constexpr std::size_t longest_line = 4096;
 
-    /// What may go through of what has come. false: it is no sender; close the connection, and obey the stops of that.
+    /// What may go through of what has come. false: it is no sender; close the connection, but obey the stops of that.
     [[nodiscard]] bool take(std::string_view bytes, std::string& out);
 
 private:

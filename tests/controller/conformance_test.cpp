@@ -107,6 +107,27 @@ TEST_CASE("an output between two moves that go on straight switches where they m
     CHECK(at_mm[1] == Approx(25.0).margin(0.6));
 }
 
+TEST_CASE("homing does not begin where its sender has gone, nor what a lock keeps back", "[controller]") {
+    const auto [line] = GENERATE(table<std::string>({{"$H\n"}, {"$X\nG0 X100\n"}, {"$X\n$J=X100F3000\n"}}));
+    CAPTURE(line);
+    ControlledTool<double> tool;
+    tool.machine.alarm = Alarm::limit_switch;
+    tool.tick();
+    tool.machine.alarm = Alarm::none;
+    tool.send("\x18");
+    for (int ms = 0; ms < 100; ++ms) {
+        tool.tick();
+    }
+    REQUIRE(tool.controller->state() == ControllerState::alarm);
+    tool.send(line);
+    tool.controller->disconnect();
+    for (int ms = 0; ms < 2000; ++ms) {
+        tool.tick();
+        REQUIRE(tool.controller->state() == ControllerState::alarm);
+    }
+    CHECK(tool.machine.distance_mm() == 0.0);
+}
+
 TEST_CASE("however often its state is asked for, lines are executed", "[controller]") {
     ControllerSettings settings = settings_of_machine_tool();
     VirtualMachineTool machine(settings);

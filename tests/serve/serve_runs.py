@@ -262,6 +262,7 @@ def signals(tool, folder):
         require(abs(sender.place()[0] - kept["position_mm"][0]) < 0.001, "it stands elsewhere")
         sender.send(b"$X\n$H\n")
         sender.until("Home")
+        time.sleep(0.2)  # it begins when the file is on the disk, and takes half a second
         require(json.loads(pathlib.Path(state).read_text())["position_mm"] == [None] * 3, "the state file does not know that it homes")
         sender.until("Idle")
         time.sleep(0.1)

@@ -63,7 +63,8 @@ public:
         const bool has_speed = on_ == 0 || (passed(spindle_->spin_up_s) && (!spindle_->at_speed || at_speed_));
         return {.carried_out = !ended_ && trouble_.empty() && on_ == wanted_ && has_speed,
                 .stands = !is_on_ || (on_ == 0 && obeys_ && passed(spindle_->spin_down_s)),
-                .stop_timeout_s = spindle_->spin_down_s + 0.5};
+                .stop_timeout_s = spindle_->spin_down_s + 0.5,
+                .coasts_s = spindle_->spin_down_s};
     }
 
     [[nodiscard]] std::string trouble() const override {

@@ -13,7 +13,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::string_view name = "sim";
+constexpr std::string_view sim_name = "sim";
 constexpr std::uint64_t homing_us = 500'000;
 constexpr std::uint64_t give_up_every_us = 1000;
 
@@ -38,6 +38,8 @@ hal::PortFailure SimTarget::prepare(const FeedSegment& first) {
 }
 
 hal::PortFailure SimTarget::renew(const FeedSegment& first) {
+    queue_.clear();
+    queued_ticks_ = 0;
     checks_.emplace(*machine_, 1);
     mm_ = mm_of(first.start);
     phase_ = hal::PortPhase::running;
@@ -73,9 +75,12 @@ int SimTarget::room() const noexcept {
 }
 
 bool SimTarget::submit(const FeedSegment& segment) noexcept {
+    if (phase_ != hal::PortPhase::running) {
+        return false;
+    }
     queue_.push_back(segment);
     queued_ticks_ += segment.duration_ticks;
-    return phase_ == hal::PortPhase::running;
+    return true;
 }
 
 hal::PortState SimTarget::poll() noexcept {
@@ -139,6 +144,9 @@ void SimSpindle::act(const ProgramAction& action) {
 
 void SimSpindle::turn(const SpindleTurn& turn) noexcept {
     const double wanted = turn.direction * turn.rpm;
+    if (wanted == rpm_.load()) {
+        return;
+    }
     const double takes_us = machine_->change_s(rpm_.load(), wanted) * static_cast<double>(us_per_s);
     ready_us_.store(clock_->now_us() + static_cast<std::uint64_t>(std::llround(takes_us)));
     rpm_.store(wanted);
@@ -146,14 +154,15 @@ void SimSpindle::turn(const SpindleTurn& turn) noexcept {
 
 OutputPart::Progress SimSpindle::progress() const {
     const bool ready = clock_->now_us() >= ready_us_.load();
-    return {ready, ready && rpm_.load() == 0.0, machine_->change_s(machine_->max_rpm, 0.0)};
+    const double stops_s = machine_->change_s(machine_->max_rpm, 0.0);
+    return {ready, ready && rpm_.load() == 0.0, stops_s, stops_s};
 }
 
 extern const TargetKind sim_kind{
-    .names = name,
+    .names = sim_name,
     .help = "sim: the simulated machine in this process (default)",
     .is_real = false,
-    .is = [](const std::string& target) { return target == name; },
+    .is = [](const std::string& target) { return target == sim_name; },
     .check = [](const std::string& /*target*/) {},
     .make = [](const std::string& /*target*/, const MachineDescription& machine, const RunOptions& options)
         -> std::unique_ptr<RunTarget> { return std::make_unique<SimTarget>(machine, options); },
