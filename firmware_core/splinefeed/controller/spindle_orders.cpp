@@ -53,8 +53,7 @@ void SpindleOrders::tell_coolant() noexcept {
 bool SpindleOrders::obey(const ProgramEvent& event) noexcept {
     switch (event.kind) {
     case EventKind::spindle_speed:
-    case EventKind::surface_speed:
-    {
+    case EventKind::surface_speed: {
         const bool stood = told_rpm().raw == 0;
         rpm_ = event.value;
         if (state_ != SpindleState::stopped) { // from S0, and to it, motion waits
