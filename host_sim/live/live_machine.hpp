@@ -110,7 +110,7 @@ public:
 
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return is_real() && feed_->hold_asked(); }
-    [[nodiscard]] UserSteering take_steering() noexcept {
+    [[nodiscard]] UserSteering take_steering() const noexcept {
         return settings_.signals != nullptr ? settings_.signals->take_steering() : UserSteering::none;
     }
     /// Segments that were submitted, and those that were executed.

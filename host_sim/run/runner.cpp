@@ -201,11 +201,11 @@ int run(const RunArguments& arguments) {
     tell_note(arguments.motion.quiet ? "" : note_of(machine_of(arguments), of.machine));
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
+    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
     std::optional<StateFile> state_file;
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
         state_file.emplace(arguments.state, of.owner(arguments.target));
     }
-    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
     MotionArguments motion_arguments = motion_arguments_of(arguments, of);
     input.begin_at(motion_arguments.begins);
     if (!signals) {

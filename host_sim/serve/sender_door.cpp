@@ -276,7 +276,7 @@ private:
         read(sender);
     }
 
-    void stop(const SenderPointer& sender, std::string_view bytes) {
+    void stop(const SenderPointer& sender, std::string_view bytes) const {
         for (const RealtimeByte byte : sender->stops.take(bytes)) {
             events_.stopped(byte);
             if (!std::exchange(sender->stopped, true)) {

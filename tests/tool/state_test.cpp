@@ -110,6 +110,7 @@ TEST_CASE("A machine that homes first stands at 0, or where --position says, and
     tool.write("far.ngc", "G0 X15\nM2\n");
     tool.write("on.ngc", "G91 G0 X10\nM2\n");
     REQUIRE(tool("run far.ngc -m m.toml --state s.json --quiet").status == 0);
+    REQUIRE(tool.shell("sed -i 's/\"sim\"/\"modbus-tcp\"/' s.json").status == 0);
     const std::string target = "run on.ngc -m m.toml --state s.json --target modbus-tcp://127.0.0.1:1 ";
     CHECK(tool(target).status == 2);            // 25 mm
     CHECK(tool(target + "--home").status == 1); // nothing but the drive is missing

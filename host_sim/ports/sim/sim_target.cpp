@@ -61,7 +61,7 @@ PerAxis<double> SimTarget::now_mm() const noexcept {
     PerAxis<double> out = mm_;
     if (!queue_.empty() && phase_ == hal::PortPhase::running) {
         const PerAxis<double> end = mm_of(queue_.front().end);
-        const double passed = static_cast<double>(now_ticks() - time_ticks_);
+        const auto passed = static_cast<double>(now_ticks() - time_ticks_);
         const double part = std::min(1.0, passed / static_cast<double>(queue_.front().duration_ticks));
         for (const unsigned k : indices(machine_->settings.axes)) {
             out[k] += part * (end[k] - out[k]);

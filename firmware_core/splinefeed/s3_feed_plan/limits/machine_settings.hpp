@@ -9,7 +9,8 @@
 namespace splinefeed {
 
 /// A path that leaves the travel by no more than this keeps it: what arcs and inches are rounded to. [mm]
-inline constexpr double travel_allowance_mm = 1e-6;
+inline constexpr int travel_allowances_a_mm = 1'000'000;
+inline constexpr double travel_allowance_mm = 1.0 / travel_allowances_a_mm;
 
 /// One axis, as the machine file states it.
 struct AxisSettings {
