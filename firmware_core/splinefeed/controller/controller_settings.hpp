@@ -15,8 +15,7 @@ struct AxisTravel {
     Decimal high{};
 
     /// Of travel_allowance_mm.
-    static constexpr Decimal allowance{
-        static_cast<std::int64_t>(travel_allowance_mm * static_cast<double>(Decimal::one) + 0.5)};
+    static constexpr Decimal allowance{Decimal::one / travel_allowances_a_mm};
     [[nodiscard]] constexpr bool holds(Decimal at) const noexcept {
         return !limited || (at <= high + allowance && at >= low - allowance);
     }
