@@ -68,7 +68,9 @@ Status TolerancePath<S>::push(const PathElement<S>& element) noexcept {
     }
     moves_ = moves_ || length.value() > S{};
     PathElement<S> kept = element;
-    feed_along_path(kept);
+    if (has_rotary_) { // else the linear part is the whole
+        feed_along_path(kept);
+    }
     last_ = element.to;
     kept.tolerance_mm = inside(element.tolerance_mm);
     kept.chain_tolerance_mm = inside(kept.chain_tolerance_mm);

@@ -26,7 +26,8 @@ class TolerancePath final : public CurveSource<S> {
 public:
     /// @param rules  those of the machine: path_rules()
     TolerancePath(int axes, const PathRules<S>& rules) noexcept
-        : axes_(axes), rotary_(rules.rotary), chains_(axes, rules.sharpest.half_sine), blended_(axes, rules) {}
+        : axes_(axes), rotary_(rules.rotary), has_rotary_(any(rules.rotary)), chains_(axes, rules.sharpest.half_sine),
+          blended_(axes, rules) {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;
@@ -46,10 +47,18 @@ public:
 
 private:
     bool pass_on() noexcept;
-    void feed_along_path(PathElement<S>& element) const noexcept;
+    [[nodiscard]] static bool any(const PerAxis<bool>& axes) noexcept {
+        bool some = false;
+        for (const bool axis : axes) {
+            some = some || axis;
+        }
+        return some;
+    }
+    [[gnu::noinline]] void feed_along_path(PathElement<S>& element) const noexcept; // its stack is for these alone
 
     int axes_;
     PerAxis<bool> rotary_;
+    bool has_rotary_;
     ChainSmoother<S> chains_;
     BlendedPath<S> blended_;
     PerAxis<Position> last_{}; // end of the last move that was pushed
