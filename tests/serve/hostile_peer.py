@@ -17,10 +17,9 @@ import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 
-from sender import Failed, Sender, Server
+from sender import Failed, Sender, Server, run_cases
 
 MACHINE = str(pathlib.Path(__file__).resolve().parent / "machine.toml")
 ORDERS = b"\n~$X\n~G0X9\n$J=G91X7F6000\n~"
@@ -318,19 +317,5 @@ def dead_link(tool, folder):
 CASES = {case.__name__: case for case in (no_sender, drip, anybody, silent, unread, signals, killed, unwritable, dead_link)}
 
 
-def main():
-    tool, names = os.path.abspath(sys.argv[1]), sys.argv[2:] or list(CASES)
-    failed = 0
-    for name in names:
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                CASES[name](tool, folder)
-                print(f"{name}: passed", flush=True)
-            except (Failed, OSError, subprocess.SubprocessError) as failure:
-                failed += 1
-                print(f"{name}: {type(failure).__name__}: {failure}", flush=True)
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_cases(CASES, os.path.abspath(sys.argv[1]), sys.argv[2:]))

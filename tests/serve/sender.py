@@ -9,6 +9,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -147,3 +148,17 @@ class Sender:
             self.socket.close()
         else:
             os.close(self.descriptor)
+
+
+def run_cases(cases, tool, names):
+    """Runs the cases of these names, or all, each in a folder of its own; the exit status."""
+    failed = 0
+    for name in names or cases:
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                cases[name](tool, folder)
+                print(f"{name}: passed", flush=True)
+            except (Failed, OSError, subprocess.SubprocessError) as failure:
+                failed += 1
+                print(f"{name}: {type(failure).__name__}: {failure}", flush=True)
+    return 1 if failed else 0

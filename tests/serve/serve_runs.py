@@ -16,11 +16,10 @@ import socket
 import struct
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
-from sender import Failed, Sender, Server
+from sender import Failed, Sender, Server, run_cases
 
 MACHINE = str(pathlib.Path(__file__).resolve().parent / "machine.toml")
 
@@ -318,19 +317,5 @@ def console(tool, folder):
 CASES = {case.__name__: case for case in (page, second, gone, flood, stream, signals, console)}
 
 
-def main():
-    tool, names = sys.argv[1], sys.argv[2:] or list(CASES)
-    failed = 0
-    for name in names:
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                CASES[name](tool, folder)
-                print(f"{name}: passed", flush=True)
-            except (Failed, OSError, subprocess.SubprocessError) as failure:
-                failed += 1
-                print(f"{name}: {type(failure).__name__}: {failure}", flush=True)
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_cases(CASES, sys.argv[1], sys.argv[2:]))

@@ -12,10 +12,9 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
-from sender import Failed, Sender, ServedDrives
+from sender import Failed, Sender, ServedDrives, run_cases
 from case_runs import pymodbus_missing
 from input_runs import Module
 from spindle_runs import Vfd
@@ -415,24 +414,24 @@ DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--p
 PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds", "no_home")), "leadshine-pr": ("", ("motion", "holds", "home", "home_ends"))}
 
 
+def case_of(whole):
+    """The case NAME or NAME@PROFILE, on drives of its own."""
+    name, _, profile = whole.partition("@")
+    how = dict(DRIVES.get(name, {}))
+    if profile:
+        how |= {"profile": profile, "keys": f"profile={profile}{PROFILES[profile][0]}"}
+
+    def run(tool, folder):
+        with ServedDrives(tool, folder, **how) as drives:
+            drives.beside_mm = 0.3 if profile else 0.02
+            CASES[name](drives)
+
+    return run
+
+
 def main():
-    tool, names = sys.argv[1], sys.argv[2:] or [*(case for case in CASES if case != "no_home"), *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
-    failed = 0
-    for whole in names:
-        name, _, profile = whole.partition("@")
-        how = dict(DRIVES.get(name, {}))
-        if profile:
-            how |= {"profile": profile, "keys": f"profile={profile}{PROFILES[profile][0]}"}
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                with ServedDrives(tool, folder, **how) as drives:
-                    drives.beside_mm = 0.3 if profile else 0.02
-                    CASES[name](drives)
-                print(f"{whole}: passed", flush=True)
-            except (Failed, OSError) as failure:
-                failed += 1
-                print(f"{whole}: {type(failure).__name__}: {failure}", flush=True)
-    return 1 if failed else 0
+    names = sys.argv[2:] or [*(case for case in CASES if case != "no_home"), *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
+    return run_cases({name: case_of(name) for name in names}, sys.argv[1], names)
 
 
 if __name__ == "__main__":
