@@ -165,7 +165,7 @@ void LiveMachine::stop(const std::string& why) {
     const std::lock_guard lock(mutex_);
     if (!(rests_ && at_rest_)) {
         stop_why_ = stop_why_.empty() ? why : stop_why_;
-        orders_.stops = std::max(orders_.stops, 1);
+        orders_.stop = std::max(orders_.stop, hal::StopRequest::hold);
     }
 }
 
@@ -265,7 +265,7 @@ void LiveMachine::home(std::uint32_t axes) noexcept {
 bool LiveMachine::halt() noexcept {
     const std::lock_guard lock(mutex_);
     const bool halts = submitted_ != finished_ && (facts_.halts || waits_);
-    orders_.stops = halts ? std::max(orders_.stops, 1) : orders_.stops;
+    orders_.stop = halts ? std::max(orders_.stop, hal::StopRequest::hold) : orders_.stop;
     return halts;
 }
 
@@ -280,7 +280,7 @@ void LiveMachine::give_up_homing() noexcept {
 void LiveMachine::quick_stop() noexcept {
     give_up_homing();
     const std::lock_guard lock(mutex_);
-    orders_.stops = submitted_ != finished_ ? 2 : orders_.stops;
+    orders_.stop = submitted_ != finished_ ? hal::StopRequest::quick_stop : orders_.stop;
     gives_up_.store(true);
 }
 

@@ -154,7 +154,7 @@ private:
     enum class Phase : std::uint8_t { closed, open, ready, failed };
     /// What other threads ask for; that of the machine does it, in this order.
     struct Orders {
-        int stops = 0;               ///< as TargetFeed::look
+        hal::StopRequest stop = hal::StopRequest::none;
         bool off = false;            ///< the drives
         bool opens = false;          ///< what is closed or has failed
         bool resets = false;         ///< faults of drives, too

@@ -47,13 +47,15 @@ void LiveMachine::work() noexcept {
 LiveMachine::Orders LiveMachine::take_orders() {
     const std::lock_guard lock(mutex_);
     const bool moves = !serves() || submitted_ != finished_;
-    const int signals = std::min(SignalWatch::interrupts(), 2);
+    const int signals = SignalWatch::interrupts();
     // Of a machine that is served the plan brakes, as at each reset, where the drives do not do so sooner.
-    const int asked = !serves() || facts_.halts || signals > 1 ? signals : 0;
-    orders_.stops = moves ? std::max(orders_.stops, asked) : 0;
+    const hal::StopRequest asked = signals > 1                                  ? hal::StopRequest::quick_stop
+                                   : signals > 0 && (!serves() || facts_.halts) ? hal::StopRequest::hold
+                                                                                : hal::StopRequest::none;
+    orders_.stop = moves ? std::max(orders_.stop, asked) : hal::StopRequest::none;
     Orders out = orders_;
     out.home = waits_ ? 0U : out.home;
-    orders_ = {.stops = out.stops, .home = orders_.home & ~out.home};
+    orders_ = {.stop = out.stop, .home = orders_.home & ~out.home};
     busy_ = out.any();
     gives_up_.store(serves() && leaves_.load()); // what was given up is over
     if (!stop_why_.empty()) {
@@ -98,7 +100,7 @@ void LiveMachine::step() {
     }
     come_to(feed_->executed());
     if (phase_ == Phase::ready) {
-        const std::optional<MotionEnd> end = feed_->look(orders.stops, moves);
+        const std::optional<MotionEnd> end = feed_->look(orders.stop, moves);
         if (end) {
             come_to(feed_->executed());
             end_motion(*end);
@@ -118,7 +120,7 @@ void LiveMachine::step() {
     look_at_signs(phase_ != Phase::closed);
     if (phase_ != Phase::failed && !feed_->trouble().empty()) {
         fail(feed_->trouble(), trouble_alarm());
-    } else if (feed_->waits() && (phase_ == Phase::failed || orders.stops > 0)) {
+    } else if (feed_->waits() && (phase_ == Phase::failed || orders.stop != hal::StopRequest::none)) {
         drop_motion();
     } else if (feed_->waits() && moves) {
         begin_first();
@@ -191,19 +193,19 @@ void LiveMachine::end_motion(const MotionEnd& end) {
         return;
     }
     const FeedSegment last = feed_->last();
-    if (end.kind != MotionEnd::Kind::complete || !end.why.empty() || feed_->obeyed() > 0) {
+    if (end.phase != hal::PortPhase::idle || !end.why.empty() || feed_->stops()) {
         feed_->drop();
     } // else what waits is the next motion
     if (!feed_->trouble().empty()) {
         fail(feed_->trouble(), trouble_alarm());
         return;
     }
-    if (end.kind == MotionEnd::Kind::fault || target_->signs().stop.cause != StopCause::none) {
+    if (end.phase == hal::PortPhase::fault || target_->signs().stop.cause != StopCause::none) {
         fail_by(end.why);
         return;
     }
     FeedSegment next{.duration_ticks = settings_.segment_ticks, .start = last.end, .end = last.end};
-    if (end.kind == MotionEnd::Kind::halted) {
+    if (end.phase == hal::PortPhase::halted) {
         constexpr int looks = 100; // a drive's answer may be late
         const std::uint32_t known = known_axes();
         for (int look = 0; look < looks && !look_where(true); ++look) {
@@ -277,7 +279,7 @@ void LiveMachine::finish_motion() {
     finished_ = feed_->taken();
     known_.note.clear();
     heard_us_ = settings_.clock->now_us();
-    orders_.stops = finished_ == submitted_ ? 0 : orders_.stops;
+    orders_.stop = finished_ == submitted_ ? hal::StopRequest::none : orders_.stop;
     known_.speed_mm_s = 0.0;
 }
 

@@ -77,24 +77,26 @@ void TargetFeed::tend_outputs() {
     }
     {
         const std::lock_guard lock(order_mutex_);
-        while (obeyed_ == 0 && !orders_.empty() && executed() >= orders_.front().after) {
+        while (!stops() && !orders_.empty() && executed() >= orders_.front().after) {
             outputs_->act(orders_.front().action);
             orders_.pop_front();
         }
     }
     outputs_->update();
-    if (obeyed_ == 0) {
+    if (!stops()) {
         set_trouble(outputs_->trouble());
     }
 }
 
-void TargetFeed::ask(int requests) {
-    if (requests <= obeyed_) {
-        return;
+void TargetFeed::ask(hal::StopRequest stop) {
+    if (stop > stop_.report(0).request) {
+        stop_.request(stop, clock_->now_us());
+        obey(stop);
     }
-    obeyed_us_ = clock_->now_us();
-    obeyed_ = requests;
-    if (requests > 1) {
+}
+
+void TargetFeed::obey(hal::StopRequest stop) {
+    if (stop > hal::StopRequest::hold) {
         end_outputs();
         port_->quick_stop();
     } else {
@@ -106,7 +108,7 @@ void TargetFeed::begin(std::uint64_t done) noexcept {
     done_before_ = done;
     began_at_ = taken_;
     executed_.store(taken_);
-    obeyed_ = 0;
+    stop_.reset();
     completed_ = false;
 }
 
@@ -149,13 +151,14 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
     case hal::PortPhase::fault: {
         end_outputs();
         const hal::PortFailure failure = port_->failure();
-        return MotionEnd{MotionEnd::Kind::fault, or_unsaid(failure ? target_->sentence(failure) : std::string())};
+        return MotionEnd{phase, or_unsaid(failure ? target_->sentence(failure) : std::string())};
     }
-    case hal::PortPhase::halted: return MotionEnd{MotionEnd::Kind::halted, or_unsaid(target_->halted(obeyed_ > 1))};
+    case hal::PortPhase::halted:
+        return MotionEnd{phase, or_unsaid(target_->halted(stop_.report(0).request > hal::StopRequest::hold))};
     case hal::PortPhase::idle:
         if (completed) {
             const RunTarget::Signs signs = target_->signs();
-            return MotionEnd{MotionEnd::Kind::complete, signs.achieved ? std::string() : signs.holds};
+            return MotionEnd{phase, signs.achieved ? std::string() : signs.holds};
         }
         break;
     case hal::PortPhase::running: break;
@@ -165,22 +168,20 @@ std::optional<MotionEnd> TargetFeed::end_of(hal::PortPhase phase, bool completed
 
 // A stop that does not end.
 std::optional<MotionEnd> TargetFeed::insist() {
-    const std::uint64_t now_us = clock_->now_us();
-    if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
-        obeyed_ = 2;
-        end_outputs();
-        port_->quick_stop();
-    } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
-        return MotionEnd{MotionEnd::Kind::fault, "interrupted, but not every drive has confirmed that it stands"};
+    const hal::StopFacts unconfirmed{};
+    if (stop_.update(clock_->now_us(), {&unconfirmed, 1})) {
+        obey(stop_.to_send(0));
     }
-    return std::nullopt;
+    return stop_.settled() ? std::optional(MotionEnd{hal::PortPhase::fault, "interrupted, but not every drive has "
+                                                                            "confirmed that it stands"})
+                           : std::nullopt;
 }
 
-std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
+std::optional<MotionEnd> TargetFeed::look(hal::StopRequest stop, bool hands_over) {
     hal::PortState state;
     const bool completed = completed_;
     try {
-        ask(requests);
+        ask(stop);
         state = port_->poll();
         hold_asked_.store(!target_->signs().holds.empty());
         if (hands_over) {
@@ -188,7 +189,7 @@ std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
         }
     } catch (const std::exception& error) {
         set_trouble(error.what());
-        ask(1); // before outputs are told anything more
+        ask(hal::StopRequest::hold); // before outputs are told anything more
         state = port_->poll();
     }
     executed_.store(began_at_ + (state.executed - done_before_));
@@ -199,7 +200,7 @@ std::optional<MotionEnd> TargetFeed::look(int requests, bool hands_over) {
     end = end ? end : insist();
     if (!end) {
         tend_outputs();
-        ask(trouble_.empty() ? 0 : 1);
+        ask(trouble_.empty() ? hal::StopRequest::none : hal::StopRequest::hold);
     }
     return end;
 }

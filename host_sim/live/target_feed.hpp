@@ -7,6 +7,7 @@
 #include "host_sim/report/target_record.hpp"
 
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/hal/stop_sequence.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 
 #include <array>
@@ -20,12 +21,9 @@ namespace splinefeed::host {
 
 /// How a motion of a target ended.
 struct MotionEnd {
-    enum class Kind : std::uint8_t {
-        complete, ///< everything was executed; with a reason: up to where the target held the plan
-        halted,   ///< it was asked to stop
-        fault,
-    };
-    Kind kind = Kind::complete;
+    /// That of the port. Idle: everything was executed; with a reason, up to where the target held the plan. Halted: it
+    /// was asked to stop.
+    hal::PortPhase phase = hal::PortPhase::idle;
     std::string why; ///< empty: everything was executed
 };
 
@@ -71,9 +69,9 @@ public:
     /// The port is prepared: its motion begins. @param done  what it has executed until now is none of it
     void begin(std::uint64_t done) noexcept;
     /// Once a millisecond. Nothing: the motion goes on, or has not begun.
-    /// @param requests  to stop, by now: the first one holds all axes on the path, the second one stops them at once
+    /// @param stop  what is asked for, by now
     /// @param hands_over  false: the port gets no segment
-    [[nodiscard]] std::optional<MotionEnd> look(int requests, bool hands_over = true);
+    [[nodiscard]] std::optional<MotionEnd> look(hal::StopRequest stop, bool hands_over = true);
     /// Drops what the port has not taken, and what outputs are told behind segments that were not executed.
     void drop();
     /// Whether a segment waits for the port.
@@ -82,8 +80,8 @@ public:
     [[nodiscard]] const FeedSegment& front() const noexcept { return ring_.front(); }
     /// Segments that the port has taken, or that were dropped.
     [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
-    /// Requests to stop that were obeyed.
-    [[nodiscard]] int obeyed() const noexcept { return obeyed_; }
+    /// Whether the motion is stopped, whoever has asked for it.
+    [[nodiscard]] bool stops() const noexcept { return stop_.requested(); }
     /// Carries out what is due, and keeps the outputs going; what is not as ordered is trouble(). look() does it, too,
     /// and stops the motion then.
     void tend_outputs();
@@ -99,11 +97,13 @@ public:
 
 private:
     static constexpr std::size_t capacity = 512; // hand_over_us of the shortest segments
-    // How long a stop may take: then a hold becomes a quick stop, and then nobody waits for the port any more.
-    static constexpr std::uint64_t halt_us = 10'000'000;
-    static constexpr std::uint64_t give_up_us = 15'000'000;
+    // The port has a StopSequence of its own for its axes. This one is for a port that does not end: a hold becomes a
+    // quick stop, and then nobody waits any more.
+    static constexpr hal::StopTimes stop_times{
+        .hold_us = 10'000'000, .quick_stop_us = 15'000'000, .last = hal::StopRequest::quick_stop};
 
-    void ask(int requests);
+    void ask(hal::StopRequest stop);
+    void obey(hal::StopRequest stop);
     void hand_over();
     [[nodiscard]] std::optional<MotionEnd> end_of(hal::PortPhase phase, bool completed);
     [[nodiscard]] std::optional<MotionEnd> insist();
@@ -128,8 +128,7 @@ private:
     std::atomic<bool> complete_{false}; // no more segments come, and the last one ends at rest
     std::atomic<std::uint64_t> executed_{0};
     // Used by the thread that supervises:
-    int obeyed_ = 0; // number of requests to end that were obeyed
-    std::uint64_t obeyed_us_ = 0;
+    hal::StopSequence stop_{1, stop_times};
     std::uint64_t taken_ = 0;
     std::uint64_t done_before_ = 0; // by the port: of moves to the references, and of motions before
     std::uint64_t began_at_ = 0;    // segments of motions before
