@@ -32,7 +32,7 @@ void Controller::connect() noexcept {
     answers_.clear();
     drop_partial();
     alone_ = false;
-    of_another_ = lines_.lines() + (task_ != Task::none ? 1U : 0U);
+    of_another_ = lines_.lines() + (is_of_line(task_) ? 1U : 0U);
     status_.refresh();
     greet();
     if (mode_ == Mode::held) {
@@ -47,7 +47,7 @@ void Controller::disconnect() noexcept {
     if (now == ControllerState::run || now == ControllerState::home || mode_ == Mode::closing) {
         hold();
     }
-    if (ending_ != Ending::none || is_locked()) { // what would begin behind that has nobody to watch it
+    if (is_end(task_) || is_locked()) { // what would begin behind that has nobody to watch it
         forget_lines();
     }
     alone_ = true;
@@ -83,8 +83,8 @@ void Controller::act(RealtimeByte byte) noexcept {
         break;
     case RealtimeKind::hold: hold(); break;
     case RealtimeKind::resume: resume(); break;
-    case RealtimeKind::reset: begin_ending(Ending::reset); break;
-    case RealtimeKind::stop: begin_ending(Ending::stop); break;
+    case RealtimeKind::reset: begin_ending(Task::reset); break;
+    case RealtimeKind::stop: begin_ending(Task::stop); break;
     case RealtimeKind::door: open_door(); break;
     case RealtimeKind::jog_cancel: cancel_jog(); break;
     case RealtimeKind::single_block: switch_single_block(); break;
@@ -126,7 +126,7 @@ void Controller::toggle(EventKind coolant) noexcept {
 // Where a stop finds no motion that it could hold, what has come before it does not begin either.
 void Controller::stop_waiting() noexcept {
     cancel_jog();
-    if (jogging_ || ending_ != Ending::none || is_locked()) {
+    if (jogging_ || is_end(task_) || is_locked()) {
         refused_lines_ = lines_.lines();
         refusal_ = LineError::locked;
     }
@@ -136,7 +136,7 @@ void Controller::hold() noexcept {
     stop_waiting();
     if (task_ == Task::home) {
         stop_quickly(Alarm::homing_reset);
-    } else if (!jogging_ && !is_locked() && ending_ == Ending::none && take(ModeEvent::hold)) {
+    } else if (!is_locked() && !is_end(task_) && take(ModeEvent::hold)) { // a jog comes to its end
         motion_->hold();
     }
 }
@@ -147,7 +147,7 @@ void Controller::resume() noexcept {
         say("The door is open: close it, then '~'");
         return;
     }
-    if (!in_door() && (reading_.alarm != Alarm::none || ending_ != Ending::none)) {
+    if (!in_door() && (reading_.alarm != Alarm::none || is_end(task_))) {
         return;
     }
     refused_lines_ = refused_lines_ == all_lines ? lines_.lines() : refused_lines_;
@@ -190,7 +190,7 @@ ControllerState Controller::activity() const noexcept {
         return ControllerState::alarm;
     }
     if (mode_ == Mode::ready || mode_ == Mode::tool) {
-        if (ending_ == Ending::reset || ending_ == Ending::stop) {
+        if (task_ == Task::reset || task_ == Task::stop) {
             return ControllerState::hold;
         }
         if (jogging_) {

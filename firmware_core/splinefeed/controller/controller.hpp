@@ -76,12 +76,9 @@ private:
     static constexpr std::size_t all_lines = SIZE_MAX; // that come until '~'
 
     using Mode = ControllerMode;
-    /// What is done for a line that was taken. `rest`: its next item needs the machine at rest.
-    enum class Task : std::uint8_t { none, line, rest, jog, dwell, spindle, tool, input, probe, touched, home };
+    using Task = ControllerTask;
     /// Block by block; `step`: the next one may begin.
     enum class Pace : std::uint8_t { flows, single, step };
-    /// Why the motion comes to its end.
-    enum class Ending : std::uint8_t { none, jog, stop, reset, alarm };
 
     // controller.cpp
     void greet() noexcept;
@@ -147,7 +144,7 @@ private:
 
     // controller_endings.cpp
     void brake() noexcept;
-    void begin_ending(Ending ending) noexcept;
+    void begin_ending(Task end) noexcept;
     void settle() noexcept;
     void end_reset() noexcept;
     void cancel_jog() noexcept;
@@ -183,11 +180,10 @@ private:
     LineError refusal_ = LineError::none;
     Mode mode_ = Mode::ready;
     Task task_ = Task::none;
-    Ending ending_ = Ending::none;
     Pace pace_ = Pace::flows;
     Alarm alarm_ = Alarm::none;
     bool locked_ = false; // until $H or $X, whatever alarm_ is
-    bool quick_ = false;  // of ending_: the machine stops by itself, and where it then stands the motion goes on
+    bool quick_ = false;  // of an end: the machine stops by itself, and where it then stands the motion goes on
     bool jogging_ = false;
     bool alone_ = false; // the sender has gone
 };

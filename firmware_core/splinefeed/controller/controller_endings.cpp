@@ -9,13 +9,13 @@ using namespace std::string_view_literals; // a firmware has no strlen
 // Also of jogs that wait, however far behind: their lines will have ok, and do nothing.
 void Controller::cancel_jog() noexcept {
     cancelled_lines_ = lines_.lines() + (lines_.has_partial() ? 1U : 0U);
-    if (!jogging_ || ending_ != Ending::none) {
+    if (!jogging_ || is_end(task_)) {
         return;
     }
     if (task_ == Task::jog) {
         end_task();
     }
-    ending_ = Ending::jog;
+    task_ = Task::jog_cancel;
     brake();
 }
 
@@ -33,19 +33,19 @@ void Controller::brake() noexcept {
 }
 
 // A second reset, while the first one still brakes, is the hard one.
-void Controller::begin_ending(Ending ending) noexcept {
+void Controller::begin_ending(Task end) noexcept {
     reading_ = machine_->read();
-    const bool second = ending_ == Ending::reset || ending_ == Ending::stop;
+    const bool second = task_ == Task::reset || task_ == Task::stop;
     const bool homes = task_ == Task::home;
     if (homes || (second && !stands())) {
-        ending_ = Ending::reset;
         stop_quickly(homes ? Alarm::homing_reset : Alarm::stopped_in_motion);
+        task_ = Task::reset;
         forget_lines();
         spindle_.stop_all();
         return;
     }
-    if (ending == Ending::stop) {
-        if (task_ != Task::none) {
+    if (end == Task::stop) {
+        if (is_of_line(task_)) {
             end_task();
         }
         for (; lines_.lines() > 0; lines_.take(line_)) {
@@ -54,10 +54,10 @@ void Controller::begin_ending(Ending ending) noexcept {
     }
     forget_lines();
     drop_task();
-    ending_ = ending;
+    task_ = end;
     spindle_.stop_all();
     brake();
-    if (ending != Ending::reset) {
+    if (end != Task::reset) {
         return;
     }
     quick_ = quick_ || mode_ == Mode::sleep || reading_.alarm != Alarm::none; // it may stand elsewhere then
@@ -74,7 +74,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
         return;
     }
     const AlarmRow& row = row_of(alarm);
-    if (task_ != Task::none) {
+    if (is_of_line(task_)) {
         drop_task();
         refuse(LineError::locked);
     }
@@ -89,8 +89,8 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
     quick_ = quick_ || alarm == Alarm::drive_fault || alarm == Alarm::link_lost || alarm == Alarm::emergency_stop;
     refused_lines_ = lines_.lines(); // they were sent before
     refusal_ = LineError::locked;
-    if (ending_ == Ending::none) {
-        ending_ = Ending::alarm;
+    if (!is_end(task_)) {
+        task_ = Task::alarm;
         brake();
     }
 }
@@ -98,7 +98,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
 // An ending is over when the machine stands.
 void Controller::settle() noexcept {
     const bool ended = quick_ ? reading_.stands : stands() && motion_->activity() == Activity::aborted;
-    if (ending_ == Ending::none || !ended) {
+    if (!is_end(task_) || !ended) {
         return;
     }
     if (quick_) {
@@ -106,12 +106,11 @@ void Controller::settle() noexcept {
     } else {
         motion_->restart();
     }
-    const Ending ending = ending_;
-    ending_ = Ending::none;
+    const Task end = std::exchange(task_, Task::none);
     quick_ = jogging_ = false;
-    if (ending == Ending::reset) {
+    if (end == Task::reset) {
         end_reset();
-    } else if (ending == Ending::stop) {
+    } else if (end == Task::stop) {
         take(ModeEvent::stop);
         say("Stop");
     }

@@ -55,7 +55,7 @@ struct DollarCommands {
         if (c.mode_ == ControllerMode::check) {
             c.say("Disabled");
             c.accept();
-            c.begin_ending(Controller::Ending::reset);
+            c.begin_ending(Controller::Task::reset);
         } else if (c.activity() == ControllerState::idle) {
             c.take(ModeEvent::check);
             c.say("Enabled");

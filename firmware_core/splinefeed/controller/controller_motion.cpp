@@ -37,7 +37,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
             return pull;
         }
         if (motion_->left_travel() && motion_->exhausted() && reading_.stands && alarm_ == Alarm::none &&
-            ending_ == Ending::none) {
+            !is_end(task_)) {
             raise(Alarm::outside_travel);
         }
         if (!changed && !step()) {
@@ -60,7 +60,7 @@ bool Controller::may_begin() noexcept {
 // begins to fill, does not end a motion whose lines come.
 Supply Controller::supply(bool dry) const noexcept {
     const bool waits = task_ != Task::none && task_ != Task::line && task_ != Task::jog;
-    if (waits || ending_ != Ending::none || pace_ != Pace::flows || motion_->left_travel()) {
+    if (waits || pace_ != Pace::flows || motion_->left_travel()) {
         return Supply::pauses;
     }
     const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
@@ -106,7 +106,7 @@ void Controller::watch() noexcept {
 
 // One step of the lines. false: nothing can be done now.
 bool Controller::step() noexcept {
-    if (ending_ != Ending::none || answers_.room() < answer_room) {
+    if (answers_.room() < answer_room) {
         return false;
     }
     if (task_ != Task::none) {
@@ -160,7 +160,7 @@ bool Controller::go_on() noexcept {
     case Task::probe:
     case Task::touched: return finish_probe();
     case Task::home: return go_home();
-    case Task::none: return false;
+    default: return false; // an end
     }
     motion_->carried_out();
     task_ = Task::line;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ControllerState: what the machine does, in the words of grbl. ControllerMode: what the operator has made of it.
+// ControllerTask: what is done, for a line or to come to an end.
 #pragma once
 
 #include <cstdint>
@@ -62,6 +63,34 @@ enum class ModeEvent : std::uint8_t { hold, tool, door, resume, settled, check, 
         {sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, sleep, ready},      // sleep
     };
     return table[static_cast<unsigned>(mode)][static_cast<unsigned>(event)];
+}
+
+/// One at a time: an end takes the place of what a line has asked for.
+enum class ControllerTask : std::uint8_t {
+    none,
+    line,
+    rest, ///< its next item needs the machine at rest
+    jog,
+    dwell,
+    spindle,
+    tool,
+    input,
+    probe,
+    touched,
+    home,
+    // The motion comes to its end, because of:
+    jog_cancel,
+    alarm,
+    stop,
+    reset,
+};
+
+/// A line was taken, and its answer is due.
+[[nodiscard]] constexpr bool is_of_line(ControllerTask task) noexcept {
+    return task > ControllerTask::none && task < ControllerTask::jog_cancel;
+}
+[[nodiscard]] constexpr bool is_end(ControllerTask task) noexcept {
+    return task >= ControllerTask::jog_cancel;
 }
 
 } // namespace splinefeed
