@@ -53,8 +53,9 @@ void Controller::begin_ending(Task end) noexcept {
         }
     }
     forget_lines();
+    const Task before = task_;
     drop_task();
-    task_ = end;
+    task_ = before > end ? before : end; // a stop behind a reset takes nothing of it
     spindle_.stop_all();
     brake();
     if (end != Task::reset) {

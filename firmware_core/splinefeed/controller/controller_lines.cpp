@@ -107,6 +107,7 @@ struct DollarCommands {
             c.refuse(LineError::not_now);
         } else {
             c.task_ = Controller::Task::home;
+            c.alarm_ = Alarm::none; // what stops it says so anew
             c.home_axes_ = axes;
         }
     }
