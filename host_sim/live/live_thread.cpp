@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::uint64_t look_every_us = 40'000; // where it stands
 
-Alarm alarm_of(StopCause cause) {
-    switch (cause) {
-    case StopCause::none: break;
-    case StopCause::drive_fault: return Alarm::drive_fault;
-    case StopCause::limit_switch: return Alarm::limit_switch;
-    case StopCause::emergency_stop: return Alarm::emergency_stop;
-    }
-    return Alarm::none;
-}
-
 } // namespace
 
 void LiveMachine::work() noexcept {
@@ -130,7 +120,7 @@ void LiveMachine::step() {
 // What stops the machine is an alarm at once: where its drives do not halt by themselves the plan brakes.
 void LiveMachine::announce(const RunTarget::Stop& stop) {
     const bool troubled = !feed_->trouble().empty() && !facts_.halts;
-    const Alarm alarm = troubled ? trouble_alarm() : alarm_of(stop.cause);
+    const Alarm alarm = troubled ? trouble_alarm() : stop.cause;
     const std::string& why = troubled ? feed_->trouble() : stop.why;
     bool moves = false;
     {
@@ -200,7 +190,7 @@ void LiveMachine::end_motion(const MotionEnd& end) {
         fail(feed_->trouble(), trouble_alarm());
         return;
     }
-    if (end.phase == hal::PortPhase::fault || target_->signs().stop.cause != StopCause::none) {
+    if (end.phase == hal::PortPhase::fault || target_->signs().stop.cause != Alarm::none) {
         fail_by(end.why);
         return;
     }
@@ -238,10 +228,10 @@ Alarm LiveMachine::trouble_alarm() const {
 // As the target says what has stopped it; else its drives have.
 void LiveMachine::fail_by(const std::string& sentence) {
     const RunTarget::Stop stop = target_->signs().stop;
-    if (stop.cause == StopCause::none) {
+    if (stop.cause == Alarm::none) {
         fail(sentence);
     } else {
-        fail(stop.why, alarm_of(stop.cause));
+        fail(stop.why, stop.cause);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/output/summary.hpp"
+#include "splinefeed/controller/alarm.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 
 #include <cstdint>
@@ -16,9 +17,6 @@
 #include <vector>
 
 namespace splinefeed::host {
-
-/// What stops a machine, beside the failures of its port.
-enum class StopCause : std::uint8_t { none, drive_fault, limit_switch, emergency_stop };
 
 /// What a target has of switches, for the settings that senders ask for. Axes are bits.
 struct SwitchFacts {
@@ -100,7 +98,7 @@ public:
 
     /// What stops the machine now, whether it moves or not, and the sentence about it.
     struct Stop {
-        StopCause cause = StopCause::none;
+        Alarm cause = Alarm::none;
         std::string why{};
     };
     /// Axes are bits.

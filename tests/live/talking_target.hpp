@@ -87,7 +87,7 @@ public:
         throw_where("breaks");
         return {.holds = world_->text("holds"),
                 .achieved = world_->is("achieves"),
-                .stop = {static_cast<StopCause>(world_->number("cause", 0)), "it says so"}};
+                .stop = {static_cast<Alarm>(world_->number("cause", 0)), "it says so"}};
     }
     [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
     [[nodiscard]] std::string leave(bool off) override {

@@ -26,26 +26,26 @@ constexpr int measured_calls = 500; // to measure one by
 /// What the user is told of a stop, behind what the port says.
 struct CauseWords {
     GpioCause cause;
-    StopCause stop;          // what it is for a controller,
+    Alarm stop;              // what it is for a controller,
     const char* when_served; // and what to do there
     const char* in_a_run;
 };
 
 const CauseWords& words_of(GpioCause cause) {
     static constexpr std::array words{
-        CauseWords{GpioCause::none, StopCause::none, "", ""},
-        CauseWords{GpioCause::asked, StopCause::none, "", ": held on the path"},
-        CauseWords{GpioCause::asked_twice, StopCause::none, "", ": stopped on the path"},
-        CauseWords{GpioCause::untouched, StopCause::none, "", ""},
-        CauseWords{GpioCause::touched, StopCause::none, "", ": held on the path"},
-        CauseWords{GpioCause::limit, StopCause::limit_switch, ": reset, unlock by $X, and jog away from it",
+        CauseWords{GpioCause::none, Alarm::none, "", ""},
+        CauseWords{GpioCause::asked, Alarm::none, "", ": held on the path"},
+        CauseWords{GpioCause::asked_twice, Alarm::none, "", ": stopped on the path"},
+        CauseWords{GpioCause::untouched, Alarm::none, "", ""},
+        CauseWords{GpioCause::touched, Alarm::none, "", ": held on the path"},
+        CauseWords{GpioCause::limit, Alarm::limit_switch, ": reset, unlock by $X, and jog away from it",
                    ": held on the path"},
-        CauseWords{GpioCause::led_further, StopCause::limit_switch, "", ""},
-        CauseWords{GpioCause::drive_fault, StopCause::drive_fault, ": see what the drive shows, and reset",
+        CauseWords{GpioCause::led_further, Alarm::limit_switch, "", ""},
+        CauseWords{GpioCause::drive_fault, Alarm::drive_fault, ": see what the drive shows, and reset",
                    ": held on the path"},
-        CauseWords{GpioCause::misplaced, StopCause::drive_fault, "", ""},
-        CauseWords{GpioCause::e_stop, StopCause::emergency_stop, "", ""},
-        CauseWords{GpioCause::disabled, StopCause::drive_fault, "", ""},
+        CauseWords{GpioCause::misplaced, Alarm::drive_fault, "", ""},
+        CauseWords{GpioCause::e_stop, Alarm::emergency_stop, "", ""},
+        CauseWords{GpioCause::disabled, Alarm::drive_fault, "", ""},
     };
     return *std::ranges::find(words, cause, &CauseWords::cause);
 }
