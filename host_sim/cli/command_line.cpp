@@ -122,7 +122,7 @@ void take_start(Job& job, const std::optional<std::string>& start) {
         throw UsageError("--start is for machines that stand somewhere, and the simulated one stands where its program "
                          "begins; name your machine with --target");
     }
-    if (job.run.options.home && job.run.options.start == StartWay::here) {
+    if (job.run.options.orders.home && job.run.options.start == StartWay::here) {
         throw UsageError("--start here and --home contradict each other: behind --home the machine goes to where its "
                          "program begins; leave one of them out");
     }
@@ -195,11 +195,11 @@ constexpr std::array<std::string_view, 10> commands{"run",   "plan", "check",   
 void take_path(Job& job, const CLI::App& command, const Typed& typed) {
     job.run.motion.enforce = job.command == Command::run;
     const bool is_real = target_kind(job.run.target).is_real;
-    if (!is_real && job.run.options.home) {
+    if (!is_real && job.run.options.orders.home) {
         throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
                          "--position says where it stands; name your machine with --target");
     }
-    if (job.run.options.reset && job.run.target.rfind("modbus", 0) != 0) {
+    if (job.run.options.orders.reset && job.run.target.rfind("modbus", 0) != 0) {
         throw UsageError(
             "--reset is for drives on Modbus; reset others by their own means, or name yours with --target");
     }

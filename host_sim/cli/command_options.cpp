@@ -123,8 +123,8 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
         app.add_option("--start", typed.start,
                        "check, move or here: what to do when the machine stands elsewhere than its program begins: "
                        "refuse (default), move there in a straight line, or begin where it stands; not of sim");
-        app.add_flag("--reset", job.run.options.reset, "reset faults of the drives first (modbus)");
-        app.add_flag("--home", job.run.options.home,
+        app.add_flag("--reset", job.run.options.orders.reset, "reset faults of the drives first (modbus)");
+        app.add_flag("--home", job.run.options.orders.home,
                      "find the references of the axes before the program begins; not of sim");
         app.add_flag("--probe", job.run.options.probe,
                      "end the run where the probe touches (gpio://); exit status 1 if it never does");

@@ -258,7 +258,7 @@ private:
     std::vector<RunTarget::AxisPlace> kept_places_; // that the state has
     // Of the thread, and after over_ of any thread:
     Phase phase_ = Phase::closed;
-    RunOptions options_{.interrupted = &LiveMachine::gives_up, .stays = true};
+    hal::PortOrders ready_{.stays = true};
     std::uint64_t looked_us_ = 0;    // where it stands
     std::uint64_t heard_us_ = 0;     // of all drives
     std::uint64_t seen_ = 0;         // segments that were executed,

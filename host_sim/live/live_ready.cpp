@@ -73,13 +73,13 @@ void LiveMachine::begin_run() {
 
 // Returns why it is not.
 hal::PortFailure LiveMachine::make_ready(const FeedSegment& first) {
-    target_->set_ready(options_);
+    target_->port().order(ready_);
     hal::MotionPort& port = target_->port();
     if (hal::PortFailure failure = port.prepare(first)) {
         failure.what = target_->sentence(failure);
         return failure;
     }
-    options_.reset = options_.home = false;
+    ready_.reset = ready_.home = false;
     heard_us_ = settings_.clock->now_us();
     phase_ = Phase::ready;
     feed_->begin(port.poll().executed);
@@ -129,7 +129,7 @@ void LiveMachine::recover(bool resets) {
     if (phase_ == Phase::ready) {
         return;
     }
-    options_.reset = resets;
+    ready_.reset = resets;
     if (phase_ != Phase::open) { // as it may be already, behind drives that were off
         reopen();
     }
@@ -165,7 +165,7 @@ void LiveMachine::reopen() {
         static_cast<void>(look_where(true)); // what was lost meanwhile stays so
     }
     close();
-    target_->set_ready(options_);
+    target_->port().order(ready_);
     if (const hal::PortFailure failure = target_->port().open()) {
         fail_by(target_->sentence(failure));
     } else {
@@ -184,9 +184,9 @@ void LiveMachine::find_references(std::uint32_t axes) {
     hal::PortFailure failure;
     FeedSegment found = standing();
     if (phase_ == Phase::open && !gives_up()) {
-        options_.home = true;
-        options_.home_axes = search;
-        options_.placed = known;
+        ready_.home = true;
+        ready_.home_axes = search;
+        ready_.placed = known;
         {
             const std::lock_guard lock(mutex_);
             known_.axes &= ~search;
@@ -196,8 +196,8 @@ void LiveMachine::find_references(std::uint32_t axes) {
         }
         found.end = found.start;
         failure = make_ready(found);
-        options_.home = false;
-        options_.placed = UINT32_MAX;
+        ready_.home = false;
+        ready_.placed = UINT32_MAX;
     }
     const bool homed = phase_ == Phase::ready;
     if (homed) {

@@ -66,15 +66,11 @@ enum class StartWay : std::uint8_t {
 
 /// What a run needs from its target in addition to motion.
 struct RunOptions {
-    bool reset = false;                   ///< faults of the drives are reset first
-    bool home = false;                    ///< the axes find their references before the run moves
-    std::uint32_t home_axes = UINT32_MAX; ///< which, by bits: TargetFacts::homes_with
-    std::uint32_t placed = UINT32_MAX; ///< axes that stand where prepare() begins, by bits; of others it says nothing
-    bool probe = false;                ///< the run ends, held on the path, when the probe touches
+    hal::PortOrders orders{}; ///< for prepare(), before the run moves
+    bool probe = false;       ///< the run ends, held on the path, when the probe touches
     /// Polled while the axes find their references; true: the search ends. A plain function, for the ports.
     bool (*interrupted)() = &SignalWatch::interrupted;
     StartWay start = StartWay::check;
-    bool stays = false; ///< behind homing the axes stay where it ends; else they go where the motion begins
 };
 
 /// The interface that LiveMachine uses. From the first segment on, only its thread calls the functions that are not
@@ -137,8 +133,6 @@ public:
     /// All motion is its own, from prepare(), which ends early if SignalWatch::interrupts() grows, to close(). That one
     /// is called before the process ends without destructors, too: drives and lines are then in their final state.
     [[nodiscard]] virtual hal::MotionPort& port() noexcept = 0;
-    /// What prepare() does from now on, of home and reset.
-    virtual void set_ready(const RunOptions& /*options*/) {}
     /// Each millisecond, also while it stands.
     [[nodiscard]] virtual Signs signs() { return {}; }
     /// From now on the next contact of the probe, or the loss of it, is noted with its place.

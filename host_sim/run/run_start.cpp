@@ -11,9 +11,9 @@ namespace splinefeed::host {
 // Behind --home the machine moves to where the program begins, on GPIO lines by itself.
 RunStart::RunStart(const MachineDescription& machine, const RunOptions& options,
                    const std::vector<RunTarget::AxisPlace>& standing)
-    : machine_(&machine), way_(standing.empty() ? StartWay::here
-                               : options.home   ? StartWay::move
-                                                : options.start) {
+    : machine_(&machine), way_(standing.empty()      ? StartWay::here
+                               : options.orders.home ? StartWay::move
+                                                     : options.start) {
     for (const RunTarget::AxisPlace& at : standing) {
         place_[at.axis] = at.mm;
     }

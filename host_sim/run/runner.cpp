@@ -126,7 +126,7 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
 MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMachine& of) {
     MotionArguments out = arguments.motion;
     out.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
-    out.begins = of.state(arguments.state, arguments.position, arguments.options.home);
+    out.begins = of.state(arguments.state, arguments.position, arguments.options.orders.home);
     return out;
 }
 

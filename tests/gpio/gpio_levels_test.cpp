@@ -43,7 +43,7 @@ TEST_CASE("a run that ends where its probe touches does not begin on it", "[stop
 TEST_CASE("an e-stop whose edge was forgotten stops a search by its level", "[stopping]") {
     std::string text = map_text;
     text.insert(text.find("line = 10\n"), "debounce_us = 100000\n");
-    TargetRig rig(two_axes(), text, {.reset = true, .home = true});
+    TargetRig rig(two_axes(), text, {.orders = {.reset = true, .home = true}});
     hal::StraightMotion motion(rig.machine.settings, {}, {10.0, 0.0}, 50.0);
     FeedSegment first;
     REQUIRE(motion.next(first));

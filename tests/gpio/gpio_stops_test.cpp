@@ -209,7 +209,7 @@ TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopp
 }
 
 TEST_CASE("an axis that did not find its reference has no place, the others do", "[stopping]") {
-    Bench bench({.home = true});
+    Bench bench({.orders = {.home = true}});
     hal::StraightMotion motion(bench.machine.settings, {0.0, 0.0}, to_mm, 100.0);
     FeedSegment first;
     REQUIRE(motion.next(first));

@@ -70,7 +70,7 @@ TEST_CASE("A run begins where the machine stands, moves there or is refused") {
     const MachineDescription machine = two_axes();
     for (const Case& one : cases) {
         INFO(one.what);
-        const RunStart start(machine, {.home = one.home, .start = one.way}, standing(one));
+        const RunStart start(machine, {.orders = {.home = one.home}, .start = one.way}, standing(one));
         const PerAxis<double> begins{one.begins[0], one.begins[1]};
         std::optional<PerAxis<double>> from;
         const std::string sentence = splinefeed_test::refusal_of<UsageError>([&] { from = start.move_from(begins); });
@@ -88,8 +88,8 @@ TEST_CASE("Axes of which nobody knows where they stand are named, unless the use
     const Case one{.what = "", .stands = {17.4, {}}, .begins = {}};
     CHECK(RunStart(machine, {}, standing(one)).note().find("nobody knows where y stands") == 0);
     CHECK(RunStart(machine, {.start = StartWay::here}, standing(one)).note().empty());
-    CHECK(RunStart(machine, {.home = true}, {}).note().empty()); // the target goes to the program by itself
-    CHECK_FALSE(RunStart(machine, {.home = true}, {}).move_from({5.0, 0.0}));
+    CHECK(RunStart(machine, {.orders = {.home = true}}, {}).note().empty()); // the target goes to the program by itself
+    CHECK_FALSE(RunStart(machine, {.orders = {.home = true}}, {}).move_from({5.0, 0.0}));
 }
 
 TEST_CASE("A program in G-code begins where it is told, else where the drives stand") {

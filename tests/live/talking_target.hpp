@@ -82,7 +82,6 @@ public:
         }
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
-    void set_ready(const RunOptions& options) override { options_ = options; }
     [[nodiscard]] Signs signs() override {
         throw_where("breaks");
         return {.holds = world_->text("holds"),
@@ -113,10 +112,10 @@ public:
         return {world_->text("absent")};
     }
     [[nodiscard]] hal::PortFailure prepare(const FeedSegment& first) override {
-        const std::string homes = options_.home ? fmt::format(" homing {}", options_.home_axes) : "";
-        world_->say("prepare at " + x_of(first.start) + homes + (options_.reset ? " resetting" : ""));
-        options_.reset ? world_->clear("fault") : void();
-        while (world_->is(options_.home ? "searching" : "preparing") && !LiveMachine::gives_up()) {
+        const std::string homes = orders().home ? fmt::format(" homing {}", orders().home_axes) : "";
+        world_->say("prepare at " + x_of(first.start) + homes + (orders().reset ? " resetting" : ""));
+        orders().reset ? world_->clear("fault") : void();
+        while (world_->is(orders().home ? "searching" : "preparing") && !LiveMachine::gives_up()) {
             world_->clock.sleep_us(us_per_ms);
         }
         if (LiveMachine::gives_up()) {
@@ -191,7 +190,6 @@ private:
         }
     }
 
-    RunOptions options_;
     std::deque<FeedSegment> waiting_;
     hal::PortPhase phase_ = hal::PortPhase::running;
     std::uint64_t executed_ = 1000; // on its way to the references

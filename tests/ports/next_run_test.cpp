@@ -57,8 +57,8 @@ void break_drive(SetpointPlant& plant) {
 /// Runs to the end that is asked for.
 template <class Plant, class Settings>
 void first_run(Plant& plant, Settings settings, Ending ending) {
-    settings.home = ending == Ending::homing_interrupted;
-    if (settings.home) {
+    settings.orders.home = ending == Ending::homing_interrupted;
+    if (settings.orders.home) {
         settings.interrupted = [] {
             return true;
         };
@@ -67,8 +67,8 @@ void first_run(Plant& plant, Settings settings, Ending ending) {
     if (ending == Ending::never_prepared) {
         return;
     }
-    CHECK(bool(plant.port->prepare(motion.segments.front())) == settings.home);
-    if (settings.home) {
+    CHECK(bool(plant.port->prepare(motion.segments.front())) == settings.orders.home);
+    if (settings.orders.home) {
         return;
     }
     plant.began_us = plant.clock.now_us();
@@ -123,14 +123,14 @@ TEST_CASE("PVT port, virtual: the next run, however the one before ended", "[por
         mend_drive(plant);
         plant.clock.sleep_us(200'000);
         plant.events.clear();
-        plant.make({.reset = false});
+        plant.make({.orders = {.reset = false}});
         REQUIRE_FALSE(plant.port->open());
         auto failure = plant.port->await_standstill();
         CHECK(bool(failure) == (ending == Ending::fault));
         if (failure) {
             CHECK(failure.drive == troubled);
             CHECK(names(failure, DriveProblem::fault));
-            plant.make({.reset = true});
+            plant.make({.orders = {.reset = true}});
             REQUIRE_FALSE(plant.port->open());
             REQUIRE_FALSE(plant.port->await_standstill());
         }
@@ -165,13 +165,13 @@ TEST_CASE("Set-point port, virtual: the next run, however the one before ended",
             plant.port.reset();
             plant.clock.sleep_us(1'000'000);
             plant.events.clear();
-            plant.make({.reset = false});
+            plant.make({.orders = {.reset = false}});
             REQUIRE_FALSE(plant.port->open());
             if (const PortFailure failure = plant.port->await_standstill(); ending == Ending::fault) {
                 CHECK(failure.what.find("it is in fault") == 0);
                 CHECK(failure.remedy == Remedy::reset);
                 CHECK(failure.drive == troubled);
-                plant.make({.reset = true});
+                plant.make({.orders = {.reset = true}});
                 REQUIRE_FALSE(plant.port->open());
                 REQUIRE_FALSE(plant.port->await_standstill());
             } else {
@@ -191,7 +191,7 @@ TEST_CASE("Set-point port, virtual: a drive that was homed knows where it stands
                                          std::pair("leadshine-pr", true), std::pair("oriental-az", false)}) {
         CAPTURE(profile);
         SetpointPlant plant({.profile = profile});
-        plant.open({.home = true});
+        plant.open({.orders = {.home = true}});
         REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
         plant.began_us = plant.clock.now_us();
         plant.next = 0;

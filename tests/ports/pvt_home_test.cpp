@@ -25,7 +25,7 @@ struct Homing {
     explicit Homing(double stop_counts_s2) : plant(parameters(stop_counts_s2)) {
         user_clock = &plant.clock;
         interrupts_us = UINT64_MAX;
-        plant.open({.home = true, .interrupted = &interrupted});
+        plant.open({.orders = {.home = true}, .interrupted = &interrupted});
         began_us = plant.clock.now_us();
     }
     static PvtPlantParameters parameters(double stop_counts_s2) {
@@ -114,7 +114,7 @@ TEST_CASE("PVT port, virtual: a fault is reset where that is asked for, and told
             INFO("reset " << reset << ", its cause stays " << stays);
             PvtPlant plant({});
             ModbusPortSettings settings;
-            settings.reset = reset;
+            settings.orders.reset = reset;
             plant.open(settings);
             auto& machine = plant.drives[1]->machine();
             REQUIRE(machine.execute(PvtCommand::enable, 0) == PvtRefusal::none);

@@ -31,7 +31,7 @@ void watch(DriveProfile& profile) {
 
 TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are enabled and homed", "[ports]") {
     SetpointPlant plant({.change = watch});
-    plant.open({.home = true});
+    plant.open({.orders = {.home = true}});
     const std::uint64_t begun_us = plant.clock.now_us();
     CHECK_FALSE(plant.port->prepare(motion.segments.front()));
     CHECK(plant.clock.now_us() - begun_us > 3 * 200'000U); // each took longer than the watchdog's time
@@ -47,7 +47,7 @@ TEST_CASE("Set-point port, virtual: a drive whose profile has no home keeps only
     without.commands[static_cast<std::size_t>(DriveCommand::home)].clear();
     plant.wirings[1].profile = &without;
     const bool all = GENERATE(false, true);
-    plant.make({.home = true, .home_axes = all ? 7U : 5U});
+    plant.make({.orders = {.home = true, .home_axes = all ? 7U : 5U}});
     REQUIRE_FALSE(plant.port->open());
     const PortFailure failure = plant.port->prepare(motion.segments.front());
     CHECK(failure.what == (all ? "its profile has no home command; home it by its own means" : ""));
@@ -62,7 +62,7 @@ TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again
     REQUIRE(*plant.profile.stream_mode != *plant.profile.homing_mode);
     const RegisterField* const mode = plant.profile.field_of(FieldRole::mode);
     REQUIRE(mode != nullptr);
-    plant.open({.home = true});
+    plant.open({.orders = {.home = true}});
     REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
     for (host::ProfileDrive* const drive : plant.drives) {
         std::array<std::uint16_t, 4> registers{};
@@ -155,7 +155,7 @@ TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or sa
         SetpointPlantParameters parameters = fault.parameters;
         parameters.start_counts = parameters.start_counts == 0.0 ? 60'000.0 : parameters.start_counts; // 3 s
         SetpointPlant plant(parameters);
-        plant.open({.home = true, .interrupted = [] {
+        plant.open({.orders = {.home = true}, .interrupted = [] {
                         return asked_to_stop;
                     }});
         plant.each_ms = [&] {
@@ -209,7 +209,7 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
         for (std::uint64_t at = 1; at <= requests; at += 1 + requests / 40) {
             INFO(profile << ", silent from request " << at << " of " << requests);
             SetpointPlant plant({.profile = profile, .one_wire = true, .start_counts = 8'000.0});
-            plant.make({.home = true});
+            plant.make({.orders = {.home = true}});
             plant.sample_positions();
             plant.wires[0]->silences.emplace_back(at, 150'000);
             const bool opened = !plant.port->open();

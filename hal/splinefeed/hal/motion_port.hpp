@@ -16,6 +16,16 @@ enum class PortPhase : std::uint8_t {
     fault,   ///< stopped by the port itself: failure()
 };
 
+/// What open() and prepare() do, beside getting ready.
+struct PortOrders {
+    bool reset = false; ///< what has stopped the machine is over: faults of drives are reset, and limits may be left
+    bool home = false;  ///< prepare(): axes find their references,
+    std::uint32_t home_axes = UINT32_MAX; ///< these, by bits; a drive homes all of its own; the others stay placed
+    bool stays = false;                   ///< and stay there, on step lines; else they go to where the motion begins
+    /// Axes that are known to stand where the motion begins, by bits; on step lines the others may.
+    std::uint32_t placed = UINT32_MAX;
+};
+
 /// What a port reports when it is polled.
 struct PortState {
     PortPhase phase = PortPhase::idle;
@@ -30,6 +40,9 @@ public:
     MotionPort(const MotionPort&) = delete;
     MotionPort& operator=(const MotionPort&) = delete;
 
+    /// From now on.
+    void order(const PortOrders& orders) noexcept { orders_ = orders; }
+    [[nodiscard]] const PortOrders& orders() const noexcept { return orders_; }
     /// Connects to the drives and checks them. Nothing moves.
     [[nodiscard]] virtual PortFailure open() { return {}; }
     /// Makes the drives ready for a motion that begins where this segment does. It may take minutes (homing). After a
@@ -64,6 +77,9 @@ protected:
     MotionPort() = default;
     // Not public: that would pull operator delete into firmware.
     ~MotionPort() = default;
+
+private:
+    PortOrders orders_;
 };
 
 } // namespace splinefeed::hal

@@ -82,7 +82,7 @@ void require_fit(const hal::gpio::LineMap& map, const MachineDescription& machin
         std::ranges::find(map.inputs, InputRole::probe, &hal::gpio::MappedInput::role) == map.inputs.end()) {
         throw UsageError("--probe: the map has no input with the role probe");
     }
-    if (options.home && std::ranges::none_of(map.home, [](const auto& home) { return home.has_value(); })) {
+    if (options.orders.home && std::ranges::none_of(map.home, [](const auto& home) { return home.has_value(); })) {
         throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
     }
 }
@@ -99,7 +99,7 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
         missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
     }
     require_fit(*map_, machine, *lines_, options);
-    set_ready(options);
+    port_.order(options.orders);
 }
 
 std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
@@ -124,14 +124,6 @@ TargetFacts GpioTarget::facts() const {
         out.note = "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
     }
     return out;
-}
-
-void GpioTarget::set_ready(const RunOptions& options) {
-    port_.order({.reset = options.reset,
-                 .home = options.home,
-                 .home_axes = options.home_axes,
-                 .stays = options.stays,
-                 .placed = options.placed});
 }
 
 std::string GpioTarget::holds() const {

@@ -20,7 +20,6 @@ public:
 
     [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    void set_ready(const RunOptions& options) override;
     [[nodiscard]] Signs signs() override;
     void watch_probe(bool away) override { port_.watch_probe(away); }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {

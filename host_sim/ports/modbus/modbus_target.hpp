@@ -23,9 +23,8 @@ protected:
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
-        : machine_(&machine), table_(std::move(table)), home_(options.home), claims_(table_),
-          port_(wiring_of(table_, machine),
-                {.home = options.home, .reset = options.reset, .interrupted = options.interrupted}) {
+        : machine_(&machine), table_(std::move(table)), claims_(table_),
+          port_(wiring_of(table_, machine), {.orders = options.orders, .interrupted = options.interrupted}) {
         require(port_.open());
     }
 
@@ -54,8 +53,9 @@ protected:
     /// The same before prepare(): where it will stand behind it.
     /// @param placed  the counts are those of the machine
     [[nodiscard]] AxisPlace standing_place(unsigned axis, double counts, bool placed) const {
-        const double mm = home_ ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
-        return {axis, home_ || placed ? std::optional(mm) : std::nullopt};
+        const bool homes = port_.orders().home; // then it stands at 0
+        const double mm = homes ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
+        return {axis, homes || placed ? std::optional(mm) : std::nullopt};
     }
     /// Of all drives on Modbus, each axis with a home of its own.
     [[nodiscard]] TargetFacts drive_facts() const {
@@ -66,11 +66,10 @@ protected:
         return out;
     }
     /// Without homing nothing moves before the port is ready.
-    [[nodiscard]] bool may_have_moved() const noexcept { return home_ || port_.referenced(); }
+    [[nodiscard]] bool may_have_moved() const noexcept { return port_.orders().home || port_.referenced(); }
 
     const MachineDescription* machine_;
     DriveTable table_;
-    bool home_; // prepare() finds the references: the axes then stand at 0
     WireClaims claims_;
     Port port_;
 
@@ -84,10 +83,6 @@ private:
         return all.empty() ? "; nothing was moved" : text.text();
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    void set_ready(const RunOptions& options) override {
-        home_ = options.home;
-        port_.set_ready(options.home, options.reset, options.home_axes);
-    }
     [[nodiscard]] Signs signs() override { return {.least_ahead_us = 220'000}; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return drive_sentence(table_, failure) + unconfirmed_drives(stopped());

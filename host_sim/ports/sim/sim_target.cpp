@@ -28,8 +28,8 @@ TargetFacts SimTarget::facts() const {
 }
 
 hal::PortFailure SimTarget::prepare(const FeedSegment& first) {
-    for (const std::uint64_t end_us = clock_->now_us() + homing_us; options_.home && clock_->now_us() < end_us;) {
-        if (options_.interrupted()) {
+    for (const std::uint64_t end_us = clock_->now_us() + homing_us; orders().home && clock_->now_us() < end_us;) {
+        if (interrupted_()) {
             return {"interrupted"};
         }
         clock_->sleep_us(give_up_every_us);

@@ -21,11 +21,10 @@ public:
     /// All must outlive it.
     SimTarget(const MachineDescription& machine, const RunOptions& options,
               hal::Clock& clock = hal::system_clock()) noexcept
-        : machine_(&machine), options_(options), clock_(&clock) {}
+        : machine_(&machine), interrupted_(options.interrupted), clock_(&clock) {}
 
     [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] hal::MotionPort& port() noexcept override { return *this; }
-    void set_ready(const RunOptions& options) override { options_ = options; }
     [[nodiscard]] Signs signs() override { return {.least_ahead_us = dry_us}; }
     [[nodiscard]] std::string halted(bool quick) const override;
     [[nodiscard]] std::string leave(bool /*off*/) override { return {}; }
@@ -55,7 +54,7 @@ private:
     void stop(hal::PortPhase phase) noexcept;
 
     const MachineDescription* machine_;
-    RunOptions options_;
+    bool (*interrupted_)();
     hal::Clock* clock_;
     std::optional<SimulatedMachine> checks_; // of this motion
     std::deque<FeedSegment> queue_;

@@ -24,7 +24,7 @@ PortFailure GpioPort::open() {
     }
     const GpioHold stop = stopped_by();
     const bool given_up = stop.cause == GpioCause::limit && phases_.phase() == GpioPhase::resting;
-    if (!orders_.reset && stop.cause > GpioCause::touched && !given_up) {
+    if (!orders().reset && stop.cause > GpioCause::touched && !given_up) {
         return {stop.what};
     }
     if (lost()) {
@@ -44,7 +44,7 @@ PortFailure GpioPort::prepare(const FeedSegment& first) {
     if (fresh) {
         drop_changes();
     }
-    if (const auto input = orders_.home ? std::nullopt : stops_.acting()) {
+    if (const auto input = orders().home ? std::nullopt : stops_.acting()) {
         return {inputs_.acts(*input), 0, inputs_.is(*input, InputRole::limit) ? Remedy::home : Remedy::none};
     }
     if (std::string what = inputs_.in_the_way({InputRole::e_stop, InputRole::drive_fault}); !what.empty()) {
@@ -55,11 +55,11 @@ PortFailure GpioPort::prepare(const FeedSegment& first) {
     }
     forget_stop();
     for (const unsigned k : indices(settings_.machine.axes)) {
-        if ((orders_.placed >> k & 1U) != 0) {
+        if ((orders().placed >> k & 1U) != 0) {
             put(static_cast<int>(k), first);
         }
     }
-    if (orders_.home) {
+    if (orders().home) {
         if (PortFailure failure = home(first)) {
             return port_.was_disabled() ? PortFailure{fault()} : failure;
         }
@@ -76,14 +76,14 @@ PortFailure GpioPort::prepare(const FeedSegment& first) {
 }
 
 PortFailure GpioPort::renew(const FeedSegment& first) {
-    orders_.home = orders_.reset = false;
+    order({.placed = orders().placed});
     return prepare(first);
 }
 
 // Where an axis stands whose place is not known is what the motion says. The others keep their counts.
 void GpioPort::put(int axis, const FeedSegment& first) noexcept {
     if (mover_.origin(axis) != Origin::known) {
-        const bool known = (orders_.placed >> static_cast<unsigned>(axis) & 1U) != 0;
+        const bool known = (orders().placed >> static_cast<unsigned>(axis) & 1U) != 0;
         mover_.place(axis, nearest_step(first.start[static_cast<unsigned>(axis)]),
                      known ? Origin::known : Origin::told);
     }
@@ -93,16 +93,16 @@ PortFailure GpioPort::home(const FeedSegment& first) {
     PerAxis<double> begin_mm{};
     for (const unsigned k : indices(settings_.machine.axes)) {
         begin_mm[k] = settings_.begin_mm(k, first);
-        if ((orders_.home_axes >> k & 1U) != 0 && map_->home[k]) {
+        if ((orders().home_axes >> k & 1U) != 0 && map_->home[k]) {
             mover_.forget(static_cast<int>(k));
         }
     }
     take(GpioEvent::search);
-    PortFailure failure = mover_.home(orders_.home_axes);
+    PortFailure failure = mover_.home(orders().home_axes);
     if (!failure) {
         failure.what = inputs_.in_the_way({InputRole::e_stop, InputRole::drive_fault, InputRole::limit});
     }
-    if (!failure && !orders_.stays) {
+    if (!failure && !orders().stays) {
         failure.what = mover_.go_to(begin_mm);
     }
     if (failure) {

@@ -30,15 +30,6 @@ struct GpioHold {
     std::string what{}; ///< a sentence without an end: "the limit of axis x (/dev/gpiochip0 X_LIMIT) acts"
 };
 
-/// What the next open() and prepare() do, beside getting ready.
-struct GpioOrders {
-    bool reset = false;                   ///< open(): what has stopped the machine is over, and limits may be left
-    bool home = false;                    ///< prepare(): axes find their references,
-    std::uint32_t home_axes = UINT32_MAX; ///< these, by bits,
-    bool stays = false;                   ///< and stay there, else they go to where the motion begins
-    std::uint32_t placed = UINT32_MAX;    ///< axes that are known to stand where the motion begins, by bits; others may
-};
-
 /// Behind renew(), or prepare(), another motion follows, each from the count at which the one before has ended. What is
 /// on stays on, and the switches act, until power_off() or leave(). One thread calls it.
 class GpioPort final : public MotionPort {
@@ -50,8 +41,6 @@ public:
     GpioPort(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, Noted noted);
     ~GpioPort();
 
-    void order(const GpioOrders& orders) noexcept { orders_ = orders; }
-    [[nodiscard]] const GpioOrders& orders() const noexcept { return orders_; }
     /// The drives were off, or are on and stand. What has stopped them stays until a reset; so does a limit on which a
     /// search was given up, which is a reset.
     [[nodiscard]] PortFailure open() override;
@@ -119,7 +108,6 @@ private:
     Clock* time_;
     MachineLines* lines_;
     Noted noted_;
-    GpioOrders orders_;
     GpioPhases phases_{gpio_phase_table, GpioPhase::fresh};
     StepPort port_;
     SwitchInputs inputs_;

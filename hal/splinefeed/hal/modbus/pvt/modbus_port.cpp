@@ -31,6 +31,7 @@ constexpr std::uint64_t watch_us = 150'000;
 
 ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
     : settings_(settings), stop_(wiring.size()) {
+    order(settings.orders);
     std::vector<WireUse> uses;
     uses.reserve(wiring.size());
     for (const DriveWiring& drive : wiring) {
@@ -214,15 +215,15 @@ PortFailure ModbusPort::renew(const FeedSegment& first) {
 
 std::optional<DriveFailure> ModbusPort::make_ready() {
     PvtSetup setup(drives_, times_, *settings_.clock);
-    bool stay_placed = !settings_.home;
+    bool stay_placed = !orders().home;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         stay_placed = stay_placed && placed(i);
     }
-    auto failure = setup.enable(settings_.reset);
+    auto failure = setup.enable(orders().reset);
     failure = failure ? failure : setup.command(PvtCommand::begin, stay_placed ? settings_.first_sequence : unplaced);
-    if (!failure && settings_.home) {
+    if (!failure && orders().home) {
         moves_ = true;
-        failure = setup.home(settings_.home_axes, settings_.interrupted);
+        failure = setup.home(orders().home_axes, settings_.interrupted);
     }
     failure = failure ? failure : setup.command(PvtCommand::preset_position);
     if (!failure && !stay_placed) { // now they are
@@ -247,7 +248,7 @@ PortFailure ModbusPort::await_standstill() {
         if (wait_until(*settings_.clock, stands, settings_.away_us, "") != nullptr) {
             return failed({i, problem});
         }
-        if (client.report().status.state == PvtState::fault && !settings_.reset) {
+        if (client.report().status.state == PvtState::fault && !orders().reset) {
             return failed({i, DriveProblem::fault});
         }
     }

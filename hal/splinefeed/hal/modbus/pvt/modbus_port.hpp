@@ -15,10 +15,7 @@ struct ModbusPortSettings {
     std::uint32_t stop_reserve_ms = 100; ///< PvtConfiguration; the same for all drives of a run
     std::uint32_t silent_us = 100'000;   ///< a drive without an answer for this long is offline: the others stop
     std::uint32_t away_us = 5'000'000;   ///< offline for this long: the port goes to fault
-    bool home = false;                   ///< prepare() homes the drives first,
-    std::uint32_t home_axes =
-        UINT32_MAX;                  ///< those that move one of these machine axes, by bits; the others stay placed
-    bool reset = false;              ///< prepare() resets the faults of drives
+    PortOrders orders{};
     bool (*interrupted)() = nullptr; ///< polled during homing; true: quick stop
     LinkTiming timing{};
     std::uint32_t first_sequence = 1; ///< sequence number of the first segment; 0 leaves no mark: placed()
@@ -45,12 +42,6 @@ public:
     /// Whether the positions that a drive reports are those of a machine: since its power-up a run has set them.
     /// Otherwise they count from anywhere. Before prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return report(drive).status.executed != 0; }
-    /// What prepare() does from now on.
-    void set_ready(bool home, bool reset, std::uint32_t home_axes = UINT32_MAX) noexcept {
-        settings_.home = home;
-        settings_.reset = reset;
-        settings_.home_axes = home_axes;
-    }
     /// Enables all drives, homes them if set, and presets their positions to first.start, where the motion begins.
     /// Behind close() and open() it may be called again.
     [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;

@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::uint64_t online_us = 50'000;
 
+bool homes(const PortOrders& orders, const SetpointWiring& wiring) noexcept {
+    return orders.home && (orders.home_axes >> static_cast<unsigned>(wiring.axis) & 1U) != 0;
+}
+
 } // namespace
 
 SetpointGroup::SetpointGroup(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
@@ -52,7 +56,7 @@ PortFailure SetpointGroup::open() {
     return {};
 }
 
-PortFailure SetpointGroup::await_standstill() const {
+PortFailure SetpointGroup::await_standstill(const PortOrders& orders) const {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         Standstill still(std::llround(tolerance_counts(i) * (1 << physical_bits)));
         std::string why;
@@ -70,18 +74,18 @@ PortFailure SetpointGroup::await_standstill() const {
         if (wait_until(*settings_->clock, stands, settings_->away_us, "") != nullptr) {
             return {why, i};
         }
-        if (drive(i).reading().state == DriveState::fault && !settings_->reset) {
+        if (drive(i).reading().state == DriveState::fault && !orders.reset) {
             return {fault_sentence(drive(i).reading()), i, Remedy::reset};
         }
     }
     return {};
 }
 
-PortFailure SetpointGroup::configure() {
+PortFailure SetpointGroup::configure(const PortOrders& orders) {
     PortFailure trouble;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const SetpointWiring& wiring = slots_[i].wiring;
-        if (homes(wiring) && wiring.profile->steps_of(DriveCommand::home).empty()) {
+        if (homes(orders, wiring) && wiring.profile->steps_of(DriveCommand::home).empty()) {
             trouble = {"its profile has no home command; home it by its own means", i, Remedy::omit_home};
         }
         drive(i).configure({.axis = wiring.axis,
@@ -117,8 +121,8 @@ PortFailure SetpointGroup::poll_others(std::size_t but, std::size_t enabled) con
 }
 
 // Enables all drives before the first one is homed.
-PortFailure SetpointGroup::make_ready(const FeedSegment& first, bool placed) {
-    if (PortFailure trouble = configure()) {
+PortFailure SetpointGroup::make_ready(const FeedSegment& first, const PortOrders& orders, bool placed) {
+    if (PortFailure trouble = configure(orders)) {
         return trouble;
     }
     std::size_t ready = 0;
@@ -126,8 +130,8 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first, bool placed) {
         for (std::size_t i = 0; i < slots_.size(); ++i) {
             Slot& slot = slots_[i];
             std::size_t troubled = i;
-            SetpointSetup setup(drive(i), {.home = homes(slot.wiring),
-                                           .reset = settings_->reset,
+            SetpointSetup setup(drive(i), {.home = homes(orders, slot.wiring),
+                                           .reset = orders.reset,
                                            .away_us = settings_->away_us,
                                            .interrupted = settings_->interrupted,
                                            .meanwhile = [&] {

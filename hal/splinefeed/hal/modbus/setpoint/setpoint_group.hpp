@@ -6,18 +6,16 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_stop.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_watch.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_wiring.hpp"
-#include "splinefeed/hal/port_failure.hpp"
+#include "splinefeed/hal/motion_port.hpp"
 
 namespace splinefeed::hal::modbus {
 
 struct SetpointPortSettings {
-    std::uint32_t reserve_us = 100'000;   ///< motion time of a stop on the path
-    bool home = false;                    ///< prepare() homes the drives first, one after the other:
-    std::uint32_t home_axes = UINT32_MAX; ///< those of these axes, by bits
-    bool reset = false;                   ///< prepare() resets drives that are in fault
-    bool (*interrupted)() = nullptr;      ///< polled during prepare(); true: it ends
-    std::uint32_t buffer_us = 300'000;    ///< motion that is buffered ahead
-    std::uint32_t away_us = 5'000'000;    ///< a drive is offline for this long: the port goes to fault
+    std::uint32_t reserve_us = 100'000; ///< motion time of a stop on the path
+    PortOrders orders{};                ///< drives home one after the other
+    bool (*interrupted)() = nullptr;    ///< polled during prepare(); true: it ends
+    std::uint32_t buffer_us = 300'000;  ///< motion that is buffered ahead
+    std::uint32_t away_us = 5'000'000;  ///< a drive is offline for this long: the port goes to fault
     LinkTiming timing{};
     MakeLine make_line = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
@@ -32,14 +30,14 @@ public:
     /// Connects to all drives and checks them against their profiles. Nothing moves.
     [[nodiscard]] PortFailure open();
     /// SetpointPort::await_standstill(), placed(). @pre open, not started
-    [[nodiscard]] PortFailure await_standstill() const;
+    [[nodiscard]] PortFailure await_standstill(const PortOrders& orders) const;
     [[nodiscard]] bool placed(std::size_t i) const noexcept {
         return slots_[i].wiring.profile->keeps_homed() && drive(i).reading().homed;
     }
     /// Enables all drives, homes them if set, and maps their positions to the start of the first segment. Blocks.
     /// @pre open, not started
     /// @param placed  positions that have a meaning keep it
-    [[nodiscard]] PortFailure make_ready(const FeedSegment& first, bool placed = false);
+    [[nodiscard]] PortFailure make_ready(const FeedSegment& first, const PortOrders& orders, bool placed = false);
     /// Before another motion: ends the threads, and forgets what the drives did in the motion before.
     void reset() noexcept;
     /// Starts the buses' threads. `motion` must outlive them.
@@ -100,12 +98,8 @@ private:
         bool homing = false;
     };
 
-    [[nodiscard]] PortFailure configure();
+    [[nodiscard]] PortFailure configure(const PortOrders& orders);
     [[nodiscard]] PortFailure poll_others(std::size_t but, std::size_t enabled) const;
-    [[nodiscard]] bool homes(const SetpointWiring& wiring) const noexcept {
-        return settings_->home && (settings_->home_axes >> static_cast<unsigned>(wiring.axis) & 1U) != 0;
-    }
-
     const SetpointPortSettings* settings_;
     std::vector<std::unique_ptr<SetpointBus>> buses_;
     std::vector<Slot> slots_;

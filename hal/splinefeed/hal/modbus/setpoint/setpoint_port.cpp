@@ -28,14 +28,16 @@ constexpr unsigned stop_turns = 10;                // periods of a bus until a c
 
 SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
     : settings_(settings), motion_(std::make_unique<SetpointMotion>(0, settings.reserve_us)), group_(wiring, settings_),
-      facts_(wiring.size()), stop_(wiring.size(), {}) {}
+      facts_(wiring.size()), stop_(wiring.size(), {}) {
+    order(settings.orders);
+}
 
 PortFailure SetpointPort::open() {
     return trouble_ = group_.open();
 }
 
 PortFailure SetpointPort::await_standstill() {
-    return trouble_ = group_.await_standstill();
+    return trouble_ = group_.await_standstill(orders());
 }
 
 LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
@@ -49,7 +51,6 @@ PortFailure SetpointPort::prepare(const FeedSegment& first) {
 
 // The drives keep the meaning of their positions: each stop would add what a shaft dithers.
 PortFailure SetpointPort::renew(const FeedSegment& first) {
-    set_ready(false, false);
     return begin_motion(first, true);
 }
 
@@ -62,7 +63,7 @@ PortFailure SetpointPort::begin_motion(const FeedSegment& first, bool placed) {
     phases_ = SetpointPhases(setpoint_table(), Phase::filling);
     stood_since_us_ = arrived_since_us_ = time_us_ = bounded_time_us_ = lag_us_ = submitted_ = 0;
     late_ = false;
-    PortFailure trouble = group_.make_ready(first, placed);
+    PortFailure trouble = group_.make_ready(first, placed ? PortOrders{} : orders(), placed);
     set_times();
     make_room(first);
     group_.start(*motion_);

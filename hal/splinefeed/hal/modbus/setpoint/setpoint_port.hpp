@@ -34,12 +34,6 @@ public:
     [[nodiscard]] PortFailure prepare(const FeedSegment& first) override;
     /// As prepare(), but positions keep their meaning.
     [[nodiscard]] PortFailure renew(const FeedSegment& first) override;
-    /// What prepare() does from now on.
-    void set_ready(bool home, bool reset, std::uint32_t home_axes = UINT32_MAX) noexcept {
-        settings_.home = home;
-        settings_.reset = reset;
-        settings_.home_axes = home_axes;
-    }
     [[nodiscard]] int room() const noexcept override;
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override;
