@@ -78,6 +78,11 @@ struct BackgroundTelling::Shared {
 
 std::shared_ptr<BackgroundTelling::Shared> BackgroundTelling::present_;
 
+std::shared_ptr<BackgroundTelling::Shared> BackgroundTelling::present() noexcept {
+    const std::lock_guard lock(present_mutex);
+    return present_;
+}
+
 BackgroundTelling::BackgroundTelling() {
     const std::lock_guard lock(present_mutex);
     present_ = std::make_shared<Shared>();
@@ -129,11 +134,7 @@ void BackgroundTelling::work(const std::shared_ptr<Shared>& shared) noexcept {
 }
 
 void tell(std::string_view text) noexcept {
-    std::shared_ptr<BackgroundTelling::Shared> shared;
-    {
-        const std::lock_guard lock(present_mutex);
-        shared = BackgroundTelling::present_;
-    }
+    const std::shared_ptr<BackgroundTelling::Shared> shared = BackgroundTelling::present();
     if (shared == nullptr) {
         if (!nobody_reads.load()) {
             write_told(text);
@@ -150,11 +151,7 @@ void tell(std::string_view text) noexcept {
 }
 
 void await_told(std::chrono::milliseconds most) noexcept {
-    std::shared_ptr<BackgroundTelling::Shared> shared;
-    {
-        const std::lock_guard lock(present_mutex);
-        shared = BackgroundTelling::present_;
-    }
+    const std::shared_ptr<BackgroundTelling::Shared> shared = BackgroundTelling::present();
     if (shared != nullptr) {
         std::unique_lock lock(shared->mutex);
         shared->changed.wait_for(lock, most, [&] { return shared->waiting.empty() && !shared->writes; });

@@ -45,6 +45,7 @@ private:
     friend void await_told(std::chrono::milliseconds most) noexcept;
 
     static void work(const std::shared_ptr<Shared>& shared) noexcept;
+    [[nodiscard]] static std::shared_ptr<Shared> present() noexcept;
 
     static std::shared_ptr<Shared> present_; // null: there is no object
     std::thread thread_;
