@@ -24,7 +24,8 @@ struct TargetKind {
     bool is_real = true;    ///< false: nothing but numbers moves
     /// Whether a target is meant to be one of these.
     bool (*is)(const std::string& target);
-    /// Throws AddressError if the address is wrong, and UsageError if this build does not support it.
+    /// Before all that follows. Throws AddressError if the address is wrong, and UsageError if this build does not
+    /// support it.
     void (*check)(const std::string& target);
     /// Connects to the drives. `machine` must outlive the target. Throws UsageError, InputError, TargetError.
     std::unique_ptr<RunTarget> (*make)(const std::string& target, const MachineDescription& machine,

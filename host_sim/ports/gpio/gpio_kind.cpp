@@ -114,10 +114,6 @@ LinkReport gpio_report(const std::string& target, const MachineDescription& mach
     return {text, {}};
 }
 
-void check_gpio(const std::string& target) {
-    static_cast<void>(parse_gpio_address(target));
-}
-
 std::unique_ptr<RunTarget> make_gpio(const std::string& target, const MachineDescription& machine,
                                      const RunOptions& options) {
     return make_gpio_target(parse_gpio_address(target), machine, options);
@@ -129,7 +125,7 @@ extern const TargetKind gpio_kind{
     .names = gpio_names,
     .help = gpio_help,
     .is = is_gpio_address,
-    .check = check_gpio,
+    .check = [](const std::string& target) { static_cast<void>(parse_gpio_address(target)); },
     .make = make_gpio,
     .report = gpio_report,
 };

@@ -7,36 +7,17 @@
 
 namespace splinefeed::host {
 
-namespace {
-
-[[noreturn]] void refuse() {
-    throw UsageError("--target gpio://: this splinefeed was built without libgpiod; install it (Debian: libgpiod-dev) "
-                     "and build again");
-}
-
-void check(const std::string& /*target*/) {
-    refuse();
-}
-
-std::unique_ptr<RunTarget> make(const std::string& /*target*/, const MachineDescription& /*machine*/,
-                                const RunOptions& /*options*/) {
-    refuse();
-}
-
-LinkReport report(const std::string& /*target*/, const MachineDescription& /*machine*/, bool /*any_machine*/,
-                  double /*seconds*/) {
-    refuse();
-}
-
-} // namespace
-
 extern const TargetKind gpio_kind{
     .names = gpio_names,
     .help = gpio_help,
     .is = is_gpio_address,
-    .check = check,
-    .make = make,
-    .report = report,
+    .check =
+        [](const std::string& /*target*/) {
+            throw UsageError("--target gpio://: this splinefeed was built without libgpiod; install it (Debian: "
+                             "libgpiod-dev) and build again");
+        },
+    .make = nullptr, // nobody comes so far
+    .report = nullptr,
 };
 
 } // namespace splinefeed::host
