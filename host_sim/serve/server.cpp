@@ -3,6 +3,7 @@
 
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/standard_streams.hpp"
+#include "host_sim/serve/sender_guard.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +22,7 @@ namespace {
 struct ConsoleOrder {
     std::string bytes{}; ///< for the controller
     std::string text{};  ///< for the operator, at once
-    bool stops = false;  ///< anybody may send the bytes, also while a sender has the machine
+    bool stops = false;  ///< anybody may send the byte, also while a sender has the machine
     bool leaves = false; ///< the server ends
 };
 
@@ -141,15 +142,13 @@ void Server::type(std::string_view line) {
         controller_.receive(order.bytes, now_ms());
         return;
     }
-    if (!order.stops) {
-        tell("a sender has the machine: hold, reset, cancel and status are taken here\n");
+    if (order.stops) {
+        controller_.act(realtime_byte(static_cast<std::uint8_t>(order.bytes.front())));
+        return;
     }
-    RealtimeBytes bytes; // beside those of the sender
-    for (const char c : order.bytes) {
-        const RealtimeByte byte = bytes.take(static_cast<std::uint8_t>(c), !order.stops);
-        if (byte.stops || order.stops) {
-            controller_.act(byte);
-        }
+    tell("a sender has the machine: hold, reset, cancel and status are taken here\n");
+    for (const RealtimeByte byte : StopBytes().take(order.bytes)) {
+        controller_.act(byte);
     }
 }
 
