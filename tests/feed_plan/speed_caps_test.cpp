@@ -74,7 +74,6 @@ TEST_CASE("what is wanted is the programmed feed, with its override, up to the c
     CHECK(caps.wanted_sq(cell, 9.0, {2.0}) == 9.0);
     CHECK(caps.wanted_sq(cell, cap, {2.0, 50.0}) == Approx(50.0 * 50.0).epsilon(1e-4));
     CHECK(caps.wanted_sq(cell, cap, {1.0, 50.0}) == Approx(40.0 * 40.0).epsilon(1e-4));
-    CHECK(caps.programmed_sq(cell) == Approx(40.0 * 40.0).epsilon(1e-4));
     cell.feed_mm_s = rapid_feed<double>; // follows its own override alone
     CHECK(caps.wanted_sq(cell, cap, {.ratio = 0.5}) == cap);
     CHECK(caps.wanted_sq(cell, cap, {.ratio = 2.0, .rapids = 0.5}) == Approx(0.25 * cap).epsilon(1e-12));

@@ -74,13 +74,6 @@ S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish
     return larger(smaller(cap_sq, speed * speed), literal<S>(slowest_sq));
 }
 
-template <Scalar S>
-S SpeedCaps<S>::programmed_sq(const Cell<S>& cell) const noexcept {
-    const S programmed = cell.feed_mm_s;
-    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : fastest_feed(cell));
-    return speed * speed;
-}
-
 SPLINEFEED_INSTANTIATE_CLASS(SpeedCaps)
 
 } // namespace splinefeed

@@ -24,8 +24,6 @@ public:
     [[nodiscard]] S cap_sq(const Cell<S>& cell) const noexcept;
     /// What an operator wants in a cell with this cap.
     [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept;
-    /// The feed that is programmed for a cell; if none is programmed, the machine's feed.
-    [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
 
 private:
     [[nodiscard]] S fastest_feed(const Cell<S>& cell) const noexcept;
