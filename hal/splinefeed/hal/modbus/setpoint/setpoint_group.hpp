@@ -100,6 +100,7 @@ private:
 
     [[nodiscard]] PortFailure configure(const PortOrders& orders);
     [[nodiscard]] PortFailure poll_others(std::size_t but, std::size_t enabled) const;
+
     const SetpointPortSettings* settings_;
     std::vector<std::unique_ptr<SetpointBus>> buses_;
     std::vector<Slot> slots_;
