@@ -94,12 +94,8 @@ struct ProgramLines {
         case EventKind::mist_on: return mist.has_value();
         case EventKind::flood_on: return flood.has_value();
         case EventKind::coolant_off: return mist || flood;
-        case EventKind::output_on_with_motion:
-        case EventKind::output_off_with_motion:
-        case EventKind::output_on:
-        case EventKind::output_off: return output(number) != nullptr;
         case EventKind::input_wait: return input(number) != nullptr;
-        default: return false;
+        default: return is_output(kind) && output(number) != nullptr;
         }
     }
 

@@ -9,11 +9,6 @@ namespace splinefeed::host {
 
 namespace {
 
-bool is_output(EventKind kind) {
-    return kind == EventKind::output_on_with_motion || kind == EventKind::output_off_with_motion ||
-           kind == EventKind::output_on || kind == EventKind::output_off;
-}
-
 // No sentence is a run that ended well.
 std::string or_unsaid(const std::string& why) {
     return why.empty() ? std::string("the motion was stopped, and nothing says why") : why;

@@ -27,16 +27,7 @@ std::optional<int> InputQuestion::take(bool active, std::uint64_t asked_us) noex
 }
 
 bool ProgramOutputs::is_of(const ProgramAction& action) noexcept {
-    switch (action.kind) {
-    case EventKind::mist_on:
-    case EventKind::flood_on:
-    case EventKind::coolant_off:
-    case EventKind::output_on_with_motion:
-    case EventKind::output_off_with_motion:
-    case EventKind::output_on:
-    case EventKind::output_off: return true;
-    default: return action.spindle.has_value();
-    }
+    return is_coolant(action.kind) || is_output(action.kind) || action.spindle.has_value();
 }
 
 // What an operator switches meanwhile is no answer: only another question ends one.

@@ -13,9 +13,8 @@ std::vector<SwitchTurn> switch_turns(const ProgramLines& lines, EventKind kind, 
     if (lines.flood && (kind == EventKind::flood_on || kind == EventKind::coolant_off)) {
         turns.push_back({&*lines.flood, on});
     }
-    const DigitalOutput* const output = lines.output(number);
-    if (output != nullptr && (kind == EventKind::output_on_with_motion || kind == EventKind::output_on ||
-                              kind == EventKind::output_off_with_motion || kind == EventKind::output_off)) {
+    const DigitalOutput* const output = is_output(kind) ? lines.output(number) : nullptr;
+    if (output != nullptr) {
         turns.push_back({&output->line, on});
     }
     return turns;

@@ -45,6 +45,15 @@ enum class EventKind : std::uint8_t {
     surface_speed,             ///< G96: `value` is the speed that the spindle follows to [1/min]; nobody waits for it
 };
 
+/// M62 to M65: a digital output.
+[[nodiscard]] constexpr bool is_output(EventKind kind) noexcept {
+    return kind >= EventKind::output_on_with_motion && kind <= EventKind::output_off;
+}
+/// M7 to M9.
+[[nodiscard]] constexpr bool is_coolant(EventKind kind) noexcept {
+    return kind >= EventKind::mist_on && kind <= EventKind::coolant_off;
+}
+
 /// How M66 waits.
 enum class InputWait : std::uint8_t { now, rise, fall, high, low };
 
