@@ -4,6 +4,7 @@
 
 #include "support/places.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -24,6 +25,17 @@ struct Story {
     std::string name;
     std::vector<Step> steps{};
 
+    /// So many are in its longest choice, of which each round takes the next: {this|that}.
+    [[nodiscard]] int ways() const {
+        std::ptrdiff_t most = 0;
+        for (const Step& step : steps) {
+            for (std::size_t at = 0; (at = step.text.find('{', at)) != std::string::npos; ++at) {
+                const std::string choice = step.text.substr(at, step.text.find('}', at) - at);
+                most = std::max(most, std::ranges::count(choice, '|'));
+            }
+        }
+        return static_cast<int>(most) + 1;
+    }
     [[nodiscard]] bool holds(bool serves, const std::string& target) const {
         return door != (serves ? "run" : "serve") &&
                (" " + targets + " ").find(" " + target + " ") != std::string::npos;
