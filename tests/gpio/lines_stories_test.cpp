@@ -8,5 +8,5 @@
 using namespace splinefeed_test;
 
 TEST_CASE("stories of a machine on step lines", "[live]") {
-    tell_stories_of<LinesWorld>("lines");
+    tell_stories_of<LinesWorld>({"lines"}, 1);
 }

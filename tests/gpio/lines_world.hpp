@@ -38,6 +38,7 @@ public:
             target_ = std::make_unique<host::GpioTarget>(std::move(map), std::move(own_lines), description(),
                                                          host::RunOptions{.interrupted = &host::LiveMachine::gives_up},
                                                          &clock);
+            fit(*target_);
             carriage();
         }
         return *target_;
@@ -47,16 +48,19 @@ public:
     }
     [[nodiscard]] std::uint32_t told() const override { return told_; }
     /// told BITS, starts X Y Z, lacks home y, lacks switches, outputs: before it begins. limit x, gone z: its switch
-    /// acts wherever it is, or nowhere. plate Z, of the probe. e-stop, fault, broken.
+    /// acts wherever it is, or nowhere. plate Z, of the probe. limit-level x, e-stop-level: it tells no edge. e-stop,
+    /// fault, broken.
     void set(const std::string& fact, const std::string& value) override {
         std::istringstream words(value);
-        fact == "told"      ? void(near.told_counts = (words >> told_, told_ == 7 ? 0.5 : edge_counts))
-        : fact == "starts"  ? void(words >> start_mm_[0] >> start_mm_[1] >> start_mm_[2])
-        : fact == "lacks"   ? void(lacks_ = value)
-        : fact == "outputs" ? void(switches_outputs_ = true)
-        : fact == "limit"   ? place(axis_of(value), true)
-        : fact == "gone"    ? place(axis_of(value), false)
-                            : fact == "plate"
+        fact == "told"           ? void(near.told_counts = (words >> told_, told_ == 7 ? 0.5 : edge_counts))
+        : fact == "starts"       ? void(words >> start_mm_[0] >> start_mm_[1] >> start_mm_[2])
+        : fact == "lacks"        ? void(lacks_ = value)
+        : fact == "outputs"      ? void(switches_outputs_ = true)
+        : fact == "limit"        ? place(axis_of(value), true)
+        : fact == "limit-level"  ? place(axis_of(value), true, false)
+        : fact == "e-stop-level" ? press("e-stop", true, false)
+        : fact == "gone"         ? place(axis_of(value), false)
+                                 : fact == "plate"
             ? void(words >> plate_mm_),
             carriage()
             : fact == "broken" ? lines->fail(true)
@@ -78,6 +82,7 @@ public:
     [[nodiscard]] double mm(unsigned axis) override {
         return start_mm_[axis] + static_cast<double>(counts()[axis]) / counts_per_mm;
     }
+    [[nodiscard]] std::uint64_t moved_us() override { return static_cast<void>(counts()), last_step_ns_ / 1000; }
     [[nodiscard]] bool powered() override { return lines->enabled(); }
     /// Edges of step lines so far, with their directions.
     [[nodiscard]] const PerAxis<std::int64_t>& counts() {
@@ -88,6 +93,7 @@ public:
                 const auto& motor = map_->axis[k].motor[0];
                 if ((rises & motor.step.mask()) != 0) {
                     counts_[k] += (rows[seen_].levels & motor.direction.mask()) != 0 ? 1 : -1;
+                    last_step_ns_ = rows[seen_].at_ns;
                 }
             }
         }
@@ -131,11 +137,11 @@ private:
         const auto& rows = chips->chip.at(0)->rows();
         return fmt::format("{} {}", rows.size(), rows.empty() ? 0 : rows.back().levels);
     }
-    void place(unsigned axis, bool acts) {
+    void place(unsigned axis, bool acts, bool with_edge = true) {
         switch_mm_[axis] = (axis == 2) == acts ? -1000.0 : 1000.0;
-        carriage();
+        carriage(with_edge);
     }
-    void press(const std::string& role, bool active) {
+    void press(const std::string& role, bool active, bool with_edge = true) {
         static_cast<void>(target());
         const auto wanted = role == "fault"    ? hal::gpio::InputRole::drive_fault
                             : role == "e-stop" ? hal::gpio::InputRole::e_stop
@@ -143,18 +149,18 @@ private:
                                                : throw std::invalid_argument(role);
         for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
             if (map_->inputs[i].role == wanted && lines->active(i) != active) {
-                lines->drive(i, active);
+                lines->drive(i, active, with_edge);
             }
         }
     }
     /// What the axes do to their switches.
-    void carriage() {
+    void carriage(bool with_edge = true) {
         for (std::size_t i = 0; lines != nullptr && i < map_->inputs.size(); ++i) {
             const auto& input = map_->inputs[i];
             const unsigned k = static_cast<unsigned>(std::max(input.axis, 0));
             const bool acts = k == 2 ? mm(k) >= switch_mm_[k] : mm(k) <= switch_mm_[k];
             if (input.role == hal::gpio::InputRole::limit && lines->active(i) != acts) {
-                lines->drive(i, acts); // its line: home, too
+                lines->drive(i, acts, with_edge); // its line: home, too
             }
         }
         lines != nullptr ? press("probe", mm(2) <= plate_mm_) : void();
@@ -169,6 +175,7 @@ private:
     hal::gpio::LineMap* map_ = nullptr;
     PerAxis<std::int64_t> counts_{};
     std::size_t seen_ = 0;
+    std::uint64_t last_step_ns_ = 0;
     std::unique_ptr<host::GpioTarget> target_;
 };
 

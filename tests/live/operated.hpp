@@ -49,9 +49,7 @@ public:
 
 private:
     static host::LiveMachine::Settings live_settings(ShaftWorld& world) {
-        return {.segment_ticks = static_cast<std::uint32_t>(8 * world.machine().machine.settings.sample_period_us),
-                .told = world.told(),
-                .clock = &world.clock};
+        return {.segment_ticks = world.segment_ticks(), .told = world.told(), .clock = &world.clock};
     }
     [[nodiscard]] std::uint32_t now_ms() const { return static_cast<std::uint32_t>(world_->clock.now_us() / 1000); }
 

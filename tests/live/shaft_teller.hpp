@@ -63,6 +63,7 @@ protected:
           : word == "closed" ? operated().controller.disconnect()
         : word == "open"   ? operated().controller.connect()
         : word == "stall"  ? stall(std::stod(rest))
+        : word == "rest"   ? void(ends_ = true)
         : word == "until"  ? until(rest)
         : word == "mess"   ? mess(rest)
         : word == "wait"   ? wait(static_cast<int>(std::stod(rest)))
@@ -72,6 +73,7 @@ protected:
         word == "is" || word == "not" ? void() : begin();
         return word == "stands"          ? std::optional(stands(rest.substr(0, rest.find(' '))))
                : word == "still"         ? still(std::stoul(rest))
+               : word == "says"          ? std::optional(says())
                : word == "shafts"        ? shafts({})
                : word == "moved"         ? shafts(asked_mm_)
                : word == "reads"         ? reads()
@@ -237,10 +239,13 @@ private:
         for (int ms = 0; ms < most_ms && !rests(); ++ms) {
             tick();
         }
-        std::string out = rests() ? "" : "not; ";
+        std::string out = rests() ? ""
+                                  : "not, it " + std::string(state_name(operated().controller.state())) + "," +
+                                        Teller::answer_to("shows", "").value() + operated().text + "; ";
         const std::uint64_t moved_us = world_->moved_us();
-        const std::uint64_t took_ms = (std::max(moved_us, asked_us_) - asked_us_) / us_per_ms;
-        const bool in_time = took_ms <= (within == "soon" ? world_->near.stop_ms : std::stoul(within));
+        const double took_ms =
+            static_cast<double>(std::max(moved_us, asked_us_) - asked_us_) / static_cast<double>(us_per_ms);
+        const bool in_time = took_ms <= (within == "soon" ? world_->near.stop_ms : std::stod(within));
         out += in_time ? within : fmt::format("behind {} ms", took_ms);
         wait(500);
         out += world_->moved_us() == moved_us ? "" : " and moves on";
@@ -254,6 +259,12 @@ private:
             unknown += at.known() ? "" : std::string(" ") + "xyz"[at.axis];
         }
         return out + (unknown.empty() ? "" : ", unknown" + unknown);
+    }
+    /// Who claims that all were held on the path has held them there.
+    std::string says() {
+        const std::string& out = machine().finish();
+        CHECK((out.find("held on the path") == std::string::npos || on_path() == " on the path"));
+        return out;
     }
     std::string still(std::uint64_t for_ms) {
         const std::uint64_t ms = (world_->clock.now_us() - world_->moved_us()) / us_per_ms;
@@ -333,11 +344,12 @@ private:
 };
 
 /// The stories of a world's target.
-template <class World>
-void tell_stories_of(const std::string& target) {
-    tell_stories(target, [](bool serves, int round) {
-        return std::make_unique<ShaftTeller>(std::make_unique<World>(), serves, round);
-    });
+template <class World, class... Of>
+void tell_stories_of(const std::vector<std::string>& target, int share, const Of&... of) {
+    const auto make = [&](bool serves, int round) {
+        return std::make_unique<ShaftTeller>(std::make_unique<World>(of...), serves, round);
+    };
+    tell_stories(target, make, share);
 }
 
 } // namespace splinefeed_test

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/live/target_fit.hpp"
 #include "host_sim/ports/program_outputs.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/run/run_machine.hpp"
@@ -31,9 +32,9 @@ public:
 
     /// How near to the truth it is.
     struct Nearness {
-        double told_counts;    ///< what is told of a place,
-        double path_counts;    ///< and a stop on the path;
-        std::uint64_t stop_ms; ///< from the request to the standstill
+        double told_counts; ///< what is told of a place,
+        double path_counts; ///< and a stop on the path;
+        double stop_ms;     ///< from the request to the standstill
     };
 
     explicit ShaftWorld(const Nearness& nearness) : near(nearness) {}
@@ -43,8 +44,11 @@ public:
 
     /// Facts of before that hold from its first call on.
     [[nodiscard]] virtual host::RunTarget& target() = 0;
+    [[nodiscard]] std::uint32_t segment_ticks() const noexcept { return segment_ticks_; }
     [[nodiscard]] const host::RunMachine& machine() { return static_cast<void>(target()), *machine_; }
-    [[nodiscard]] virtual std::unique_ptr<host::ProgramOutputs> outputs() { return nullptr; }
+    [[nodiscard]] virtual std::unique_ptr<host::ProgramOutputs> outputs() {
+        return std::make_unique<host::ProgramOutputs>(host::OutputParts(), clock);
+    }
     /// Axes that stand where they are told to from the beginning, by bits.
     [[nodiscard]] virtual std::uint32_t told() const { return 7; }
     /// Throws std::invalid_argument where it does not know the fact.
@@ -66,13 +70,17 @@ public:
             seen_[k] = at;
         }
     }
-    [[nodiscard]] std::uint64_t moved_us() const noexcept { return moved_us_; }
+    [[nodiscard]] virtual std::uint64_t moved_us() { return moved_us_; }
 
     VirtualClock clock;
     Nearness near;
 
 protected:
     void take(host::MachineDescription machine) { machine_.emplace(std::move(machine), true); }
+    /// The machine becomes one whose limits the target carries.
+    void fit(const host::RunTarget& target) {
+        segment_ticks_ = host::fit_to_target(description(), host::ScalarKind::fixed, target, true).segment_ticks;
+    }
     [[nodiscard]] host::MachineDescription& description() { return machine_->machine; }
     [[nodiscard]] static unsigned axis_of(const std::string& value) { return static_cast<unsigned>(value.at(0) - 'x'); }
 
@@ -80,6 +88,7 @@ private:
     static constexpr double still_counts = 0.02; // a step below this is a loop's settling
 
     std::optional<host::RunMachine> machine_;
+    std::uint32_t segment_ticks_ = 0;
     PerAxis<double> seen_{};
     std::uint64_t moved_us_ = 0;
 };

@@ -16,8 +16,13 @@ public:
     [[nodiscard]] host::RunTarget& target() override {
         if (!target_) {
             target_.emplace(description(), host::RunOptions{.interrupted = &host::LiveMachine::gives_up}, clock);
+            fit(*target_);
         }
         return *target_;
+    }
+    [[nodiscard]] std::unique_ptr<host::ProgramOutputs> outputs() override {
+        host::OutputParts parts{std::make_shared<host::SimSpindle>(*description().spindle, clock)};
+        return std::make_unique<host::ProgramOutputs>(std::move(parts), clock);
     }
     void set(const std::string& fact, const std::string& /*value*/) override { throw std::invalid_argument(fact); }
     [[nodiscard]] double mm(unsigned axis) override {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The stories of stories.txt on a target that says what it was told.
+// The stories of stories.txt on a target that says what it was told, and on the simulated machine.
 #include "host/temporary_folder.hpp"
+#include "live/shaft_teller.hpp"
+#include "live/sim_world.hpp"
 #include "live/talking_target.hpp"
 #include "live/teller.hpp"
 #include "support/catch.hpp"
@@ -140,8 +142,12 @@ private:
 
 TEST_CASE("stories of a machine in motion", "[live]") {
     std::optional<TalkingWorld> world;
-    tell_stories("talking", [&](bool serves, int /*round*/) {
+    tell_stories({"talking"}, [&](bool serves, int /*round*/) {
         world.emplace();
         return std::make_unique<TalkingTeller>(*world, serves);
     });
+}
+
+TEST_CASE("stories of the simulated machine", "[live]") {
+    tell_stories_of<SimWorld>({"sim"}, 1);
 }

@@ -36,9 +36,10 @@ struct Story {
         }
         return static_cast<int>(most) + 1;
     }
-    [[nodiscard]] bool holds(bool serves, const std::string& target) const {
-        return door != (serves ? "run" : "serve") &&
-               (" " + targets + " ").find(" " + target + " ") != std::string::npos;
+    [[nodiscard]] bool holds(bool serves, const std::vector<std::string>& target) const {
+        return door != (serves ? "run" : "serve") && std::ranges::any_of(target, [this](const std::string& one) {
+                   return (" " + targets + " ").find(" " + one + " ") != std::string::npos;
+               });
     }
 };
 

@@ -162,9 +162,11 @@ private:
 };
 
 /// The stories of a target, each through its doors.
+/// @param target  its names: {"lines"}; {"setpoint", "homes"} of drives that find their references
+/// @param share  of so many that tell them: each makes so much fewer rounds
 /// @param make  (serves, story, round) to a Teller
 template <class Make>
-void tell_stories(const std::string& target, const Make& make) {
+void tell_stories(const std::vector<std::string>& target, const Make& make, int share = 1) {
     int told = 0;
     for (const Story& story : read_stories()) {
         for (const bool serves : {false, true}) {
@@ -172,9 +174,10 @@ void tell_stories(const std::string& target, const Make& make) {
                 continue;
             }
             ++told;
-            DYNAMIC_SECTION(target << (serves ? ", serve: " : ", run: ") << story.name) {
+            DYNAMIC_SECTION(target[0] << (serves ? ", serve: " : ", run: ") << story.name) {
                 const int first = static_cast<int>(first_round());
-                for (int round = first; round < std::max(first + story.ways(), rounds(story.times)); ++round) {
+                for (int round = first;
+                     round < std::max(first + story.ways(), rounds((story.times + share - 1) / share)); ++round) {
                     CAPTURE(round);
                     const auto teller = make(serves, round);
                     for (const Step& step : story.steps) {
@@ -186,7 +189,7 @@ void tell_stories(const std::string& target, const Make& make) {
             }
         }
     }
-    CHECK(told > 10);
+    CHECK(told >= 10);
 }
 
 } // namespace splinefeed_test
