@@ -54,8 +54,9 @@ TEST_CASE("Set-point port, virtual: a drive whose profile has no home keeps only
     CHECK(failure.drive == (all ? 1U : 0U));
 }
 
-TEST_CASE("Set-point port, virtual: homing of a drive that knows no stop ends by its power, or is said not to be confirmed",
-          "[ports]") {
+TEST_CASE(
+    "Set-point port, virtual: homing of a drive that knows no stop ends by its power, or is said not to be confirmed",
+    "[ports]") {
     const bool none = GENERATE(false, true);
     static bool asked_to_stop = false;
     asked_to_stop = false;
