@@ -3,8 +3,6 @@
 #include "port_rig.hpp"
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
-#include "support/random_path.hpp"
-#include "support/rounds.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +12,7 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr PerAxis<double> to_mm{200.0, 100.0};
+constexpr PerAxis<double> end_mm{200.0, 100.0};
 
 MachineDescription with_travel() {
     MachineDescription machine = two_axes();
@@ -52,7 +50,7 @@ struct Bench : TargetRig {
 
 TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopping]") {
     Bench bench;
-    TargetRun run(bench, to_mm);
+    TargetRun run(bench, end_mm);
     while (bench.now_ms() < 500.0) {
         REQUIRE(run.tick() == hal::PortPhase::running);
     }
@@ -66,7 +64,7 @@ TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopp
 
 TEST_CASE("an axis that did not find its reference has no place, the others do", "[stopping]") {
     Bench bench({.home = true});
-    hal::StraightMotion motion(bench.machine.settings, {0.0, 0.0}, to_mm, 100.0);
+    hal::StraightMotion motion(bench.machine.settings, {0.0, 0.0}, end_mm, 100.0);
     FeedSegment first;
     REQUIRE(motion.next(first));
     RunTarget& target = *bench.target;
@@ -83,7 +81,7 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
           "[stopping]") {
     const double stall_ms = GENERATE(20.0, 39.0, 45.0, 1000.0);
     Bench bench;
-    TargetRun run(bench, to_mm);
+    TargetRun run(bench, end_mm);
     bool stalled = false;
     hal::PortPhase phase = hal::PortPhase::running;
     for (int i = 0; i < 10'000 && phase == hal::PortPhase::running; ++i) {

@@ -45,7 +45,8 @@ struct Story {
 
 /// "DOOR [on TARGET ..] [N times]: NAME"
 inline Story story_of(const std::string& head, const std::string& name) {
-    Story out{.name = name};
+    Story out;
+    out.name = name;
     std::istringstream words(head);
     words >> out.door;
     for (std::string word, before; words >> word; before = word) {

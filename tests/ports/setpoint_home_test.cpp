@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Drives that follow target positions find their references one after the other, and the others are heard meanwhile.
 #include "ports/setpoint_plant.hpp"
-#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
