@@ -78,6 +78,15 @@ def motion(drives):
         require(say(sender, b"$J=G91 Y0.5 F600") == "ok", "a jog behind a jog")
     sender.until("Idle")
     require(sender.place() == [6.0, 7.0, -2.5], "four jogs")
+    sender.send(b"G1 X60 F3000\n")
+    require(sender.line() == "ok", "no answer")
+    underway(sender, 5.0)
+    drives.server.process.send_signal(signal.SIGUSR1)
+    sender.until("Hold:0")
+    require(10.0 < sender.place()[0] < 59.0, "SIGUSR1 does not hold it")
+    sender.send(b"~")
+    sender.until("Idle")
+    require(sender.place() == [60.0, 7.0, -2.5], "it does not go on behind SIGUSR1")
     lines = [b"G1 F5000\n"] + [b"X%.3fY%.3f\n" % (40 + 20 * math.cos(n / 50), 40 + 20 * math.sin(n / 50)) for n in range(600)] + \
             [b"G4 P0.1\n", b"G0 X0 Y0 Z0\n"]
     sender.send(b"".join(lines))
