@@ -1,32 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Levels count wherever an edge is used: what acts before somebody listens to its edge acts nevertheless.
-#include "operated_lines.hpp"
 #include "port_rig.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
-
-TEST_CASE("a probe that closes about the begin of its move ends it", "[serve]") {
-    for (int us = 0; us < 3000; us += 100) {
-        CAPTURE(us);
-        OperatedLines machine;
-        machine.go("G21G90\n");
-        machine.plate_mm = 1000.0; // it touches wherever z is
-        machine.carriage();
-        machine.clock.sleep_us(static_cast<std::uint64_t>(us));
-        machine.text.clear();
-        machine.send("G38.2Z-30F600\n");
-        machine.tick();
-        REQUIRE(machine.comes([&] { return machine.rests(); }));
-        CHECK(machine.mm(2) > -2.0); // 10 mm/s, 80 ms of them in the port
-        CHECK(machine.text.find("ALARM:5") == std::string::npos);
-        const bool at_start = machine.text.find("ALARM:4") != std::string::npos;
-        CHECK((at_start || machine.text.find("[PRB:0.000,0.000,0.000:1]") != std::string::npos));
-    }
-}
 
 TEST_CASE("a run that ends where its probe touches does not begin on it", "[stopping]") {
     TargetRig rig(two_axes(), map_text + "[[input]]\nrole = \"probe\"\nline = 14\n", {.probe = true});

@@ -2,7 +2,8 @@
 //
 // The list of the controller, on a machine whose axes are lines, and what the lines have counted at the end of each
 // case.
-#include "served_lines.hpp"
+#include "lines_world.hpp"
+#include "live/operated.hpp"
 #include "support/catch.hpp"
 #include "support/conformance_list.hpp"
 
@@ -14,33 +15,32 @@ namespace {
 class ListedLines final : public test::ListedMachine {
 public:
     void finish() override {
-        for (int ms = 0; ms < 5000 && !lines_.served->stands(); ++ms) {
-            lines_.tick();
+        for (int ms = 0; ms < 5000 && !machine_.live.stands(); ++ms) {
+            machine_.tick();
         }
-        for (const host::RunTarget::AxisPlace& at : lines_.served->places()) {
+        for (const host::RunTarget::AxisPlace& at : machine_.live.places()) {
             const std::int64_t told = std::llround(at.mm.value_or(0.0) * 320.0);
             INFO("axis " << at.axis << ", told " << at.mm.value_or(0.0) * 320.0 << ", counted "
-                         << lines_.counts()[at.axis]);
-            CHECK((!at.mm || told == lines_.counts()[at.axis]));
+                         << world_.counts()[at.axis]);
+            CHECK((!at.mm || told == world_.counts()[at.axis]));
         }
     }
 
-    void send(std::string_view bytes) override { lines_.send(bytes); }
-    void tick() override { lines_.tick(); }
-    [[nodiscard]] Controller& controller() override { return *lines_.controller; }
-    [[nodiscard]] std::string& text() override { return lines_.text; }
+    void send(std::string_view bytes) override { machine_.send(bytes); }
+    void tick() override { machine_.tick(); }
+    [[nodiscard]] Controller& controller() override { return machine_.controller; }
+    [[nodiscard]] std::string& text() override { return machine_.text; }
     void obey(const std::string& /*command*/, const std::string& rest) override { // machine
         const double value = std::stod(rest.substr(rest.find(' ')));
         if (rest.rfind("plate", 0) == 0) {
-            lines_.plate_mm = value;
-            lines_.carriage();
+            world_.set("plate", rest.substr(rest.find(' ')));
             for (int ms = 0; ms < 5; ++ms) {
-                lines_.tick();
+                machine_.tick();
             }
         } else if (rest.rfind("homes", 0) == 0) {
-            lines_.settings.homes = static_cast<std::uint32_t>(value);
+            machine_.settings.homes = static_cast<std::uint32_t>(value);
         } else {
-            lines_.settings.probes = value != 0.0;
+            machine_.settings.probes = value != 0.0;
         }
     }
 
@@ -53,7 +53,8 @@ public:
     }
 
 private:
-    ServedLines lines_;
+    LinesWorld world_;
+    Operated machine_{world_};
 };
 
 } // namespace

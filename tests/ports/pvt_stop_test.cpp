@@ -42,26 +42,6 @@ TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as lon
     plant.port->close();
 }
 
-TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: nothing moves behind it", "[ports]") {
-    // On a serial line the drives are told one after the other, and start 1.45 s after it began.
-    const bool serial = GENERATE(false, true);
-    const std::uint64_t first_us = serial ? 1'300'000 : 0;
-    for (std::uint64_t hold_us = first_us; hold_us < first_us + 250'000; hold_us += 2300) {
-        PvtPlant plant({.one_wire = serial, .wire = serial ? Wire::rtu : Wire::tcp});
-        plant.begin(motion);
-        INFO("serial " << serial << ", hold at " << hold_us << " us");
-        CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
-        const std::uint64_t halted_us = plant.clock.now_us();
-        CHECK(halted_us - plant.began_us < hold_us + (serial ? 500'000U : 400'000U));
-        for (std::size_t i = 0; i < 3; ++i) {
-            CHECK(plant.port->stop_report(i).held());
-            CHECK(plant.executed_once(i).has_value());
-        }
-        CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
-        check_stands_since(plant, halted_us);
-    }
-}
-
 TEST_CASE("PVT port, virtual: a shaft that a load pushes while its stop is confirmed rests before it is confirmed",
           "[ports]") {
     // Two answers 20 ms apart, before the push and behind it, reported one position: it counted as standstill
@@ -94,54 +74,6 @@ TEST_CASE("PVT port, virtual: a shaft that a load pushes while its stop is confi
         }
     }
     CHECK(pushed > (splinefeed_test::sanitized ? 33 : 100));
-}
-
-TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, stops every drive", "[ports]") {
-    for (std::uint64_t quick_us = 0; quick_us < 400'000; quick_us += 7900) {
-        for (const std::uint64_t hold_us : {UINT64_MAX, quick_us, quick_us > 30'000 ? quick_us - 30'000 : 0}) {
-            PvtPlant plant({});
-            plant.begin(motion);
-            INFO("hold at " << hold_us << ", quick stop at " << quick_us << " us");
-            CHECK(run(plant, motion, {.hold_us = hold_us, .quick_us = quick_us}) == PortPhase::halted);
-            const std::uint64_t halted_us = plant.clock.now_us();
-            CHECK(halted_us - plant.began_us < quick_us + 200'000);
-            for (std::size_t i = 0; i < 3; ++i) {
-                CHECK(plant.port->stop_report(i).state == StopState::confirmed);
-                // A hold before the start may be over by then.
-                CHECK((plant.port->stop_report(i).request == StopRequest::quick_stop ||
-                       halted_us < plant.began_us + quick_us));
-            }
-            check_stands_since(plant, halted_us);
-        }
-    }
-}
-
-TEST_CASE("PVT port, virtual: a drive that does not answer any more is unconfirmed, in bounded time", "[ports]") {
-    for (const std::uint64_t hold_us : {20'000U, 70'000U, 200'000U}) {
-        PvtPlant plant({});
-        plant.begin(motion);
-        plant.stations[1]->mute.push_back({plant.began_us + hold_us, UINT64_MAX});
-        CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
-        const std::uint64_t halted_us = plant.clock.now_us();
-        CHECK(halted_us - plant.began_us < hold_us + plant.port->longest_stop_us() + 5000);
-        CHECK(plant.port->stop_report(1).state == StopState::unconfirmed);
-        CHECK_FALSE(plant.port->stop_report(0).held()); // the other one went on
-        CHECK(plant.port->stop_report(0).state == StopState::confirmed);
-        CHECK(plant.port->stop_report(2).state == StopState::confirmed);
-    }
-}
-
-TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but not that it is on the path", "[ports]") {
-    PvtPlant plant({});
-    plant.begin(motion);
-    plant.wires[1]->unplugged.push_back({plant.began_us + 190'000, plant.began_us + 500'000});
-    CHECK(run(plant, motion, {.hold_us = 200'000}) == PortPhase::halted);
-    for (std::size_t i = 0; i < 3; ++i) {
-        CHECK(plant.port->stop_report(i).state == StopState::confirmed);
-        CHECK(plant.port->stop_report(i).held() == false);
-    }
-    CHECK(plant.now_off_counts > motion.fastest_counts_s * 0.01);
-    check_stands_since(plant, plant.clock.now_us());
 }
 
 TEST_CASE("PVT port, virtual: drives that ran before they could be told to cancel their start are not held on the path",
@@ -188,30 +120,6 @@ TEST_CASE("PVT port, virtual: a drive that is not heard while it slows down is n
         braked += plant.port->report(1).status.state == PvtState::stopping ? 1 : 0;
     }
     CHECK(braked > 3);
-}
-
-TEST_CASE("PVT port, virtual: drives are switched off at the end, and one that does not confirm it is told",
-          "[ports]") {
-    for (const bool deaf : {false, true}) {
-        for (const std::uint64_t hold_us : {std::uint64_t{200'000}, UINT64_MAX}) {
-            PvtPlant plant({});
-            plant.begin(motion);
-            CHECK(run(plant, motion, {.hold_us = hold_us}) != PortPhase::fault);
-            CHECK(plant.drives[1]->machine().state() != PvtState::disabled);
-            const std::uint64_t asked_us = plant.clock.now_us();
-            if (deaf) {
-                plant.stations[1]->mute.push_back({asked_us, UINT64_MAX});
-            }
-            plant.port->power_off();
-            CHECK(plant.clock.now_us() < asked_us + plant.port->longest_stop_us() + 5000);
-            for (std::size_t i = 0; i < 3; ++i) {
-                const bool on = deaf && i == 1;
-                CHECK(plant.port->stop_report(i).request == StopRequest::disable);
-                CHECK((plant.port->stop_report(i).state == StopState::confirmed) != on);
-                CHECK((plant.drives[i]->machine().state() == PvtState::disabled) != on);
-            }
-        }
-    }
 }
 
 TEST_CASE("PVT port, virtual: a port that goes while its drives run holds them first", "[ports]") {

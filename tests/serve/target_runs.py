@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """`splinefeed serve` on three simulated Modbus drives, each a process: target_runs.py TOOL [CASE...].
 
-What the drives record decides: where their shafts stand at the end, that none moves when nothing was asked for, and that a stop ends on the path.
+What the drives record decides: where their shafts stand at the end, and that none moves when nothing was asked for. Stops, faults and homing are stories of tests/live/stories.txt.
 """
 import contextlib
 import json
@@ -78,6 +78,15 @@ def motion(drives):
         require(say(sender, b"$J=G91 Y0.5 F600") == "ok", "a jog behind a jog")
     sender.until("Idle")
     require(sender.place() == [6.0, 7.0, -2.5], "four jogs")
+    sender.send(b"G1 X60 F3000\n")
+    require(sender.line() == "ok", "no answer")
+    underway(sender, 5.0)
+    drives.server.process.send_signal(signal.SIGUSR1)
+    sender.until("Hold:0")
+    require(10.0 < sender.place()[0] < 59.0, "SIGUSR1 does not hold it")
+    sender.send(b"~")
+    sender.until("Idle")
+    require(sender.place() == [60.0, 7.0, -2.5], "it does not go on behind SIGUSR1")
     lines = [b"G1 F5000\n"] + [b"X%.3fY%.3f\n" % (40 + 20 * math.cos(n / 50), 40 + 20 * math.sin(n / 50)) for n in range(600)] + \
             [b"G4 P0.1\n", b"G0 X0 Y0 Z0\n"]
     sender.send(b"".join(lines))
@@ -87,60 +96,6 @@ def motion(drives):
     sender.send(b"\x91\x91")
     sender.until("Idle")
     require(sender.place() == [0.0, 0.0, 0.0], "the program")
-    sender.close()
-    drives.end()
-    require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
-
-
-def holds(drives):
-    """Hold and resume, a reset, a second one, a jog that is cancelled, a sender that goes: on the path, and it goes on from there."""
-    sender = unlocked(drives)
-    sender.send(b"G1 X100 Y50 F5000\n")
-    require(sender.line() == "ok", "no answer")
-    underway(sender, 20.0)
-    sender.send(b"!")
-    sender.until("Hold:0")
-    held = sender.place()
-    require(1.0 < held[0] < 99.0 and abs(held[1] - held[0] / 2) < drives.beside_mm, f"held at {held}")
-    sender.send(b"~")
-    sender.until("Idle")
-    require(sender.place() == [100.0, 50.0, 0.0], "not at the end")
-    for stop, beside in ((b"\x18", drives.beside_mm), (b"\x19", drives.beside_mm), (b"\x18\x18", 10.0)):
-        go(sender, b"G90 G0 X0 Y0")
-        sender.send(b"G1 X100 Y50 F5000\n")
-        require(sender.line() == "ok", "no answer")
-        underway(sender, 20.0)
-        sender.send(stop)
-        await_line(sender, "[MSG:Stop]" if stop == b"\x19" else "Grbl 1.1")
-        place = sender.place()
-        require(1.0 < place[0] < 99.0 and abs(place[1] - place[0] / 2) < beside, f"{stop} at {place}")
-        if len(stop) == 2:
-            require(sender.report().startswith("<Alarm"), "no alarm")
-            require(sender.line().startswith("[MSG:'$H'"), "it does not say how to unlock it")
-            answer = say(sender, b"$X")
-            require(answer == "ok", f"it stays locked: {answer} {sender.text}")
-        time.sleep(0.2)
-        require(sender.place() == place, "it moves after it stood")
-    go(sender, b"G0 X0 Y0")
-    sender.send(b"$J=X200 F3000\n")
-    require(sender.line() == "ok", "no answer")
-    underway(sender, 20.0)
-    sender.send(b"\x85")
-    sender.until("Idle")
-    place = sender.place()
-    require(1.0 < place[0] < 100.0 and place[1] == 0.0, f"the jog ends at {place}")
-    require(go(sender, b"G91 G0 X1")[0] == round(place[0] + 1.0, 3), "it does not go on from there")
-    sender.send(b"G90 G1 X0 F3000\nX10\n")
-    underway(sender, 2.0)
-    sender.close()
-    time.sleep(1.0)
-    sender = Sender(drives.server)
-    require("Held" in sender.line() + sender.line() + sender.line(), "it does not say that it is held")
-    sender.until("Hold:0", 5.0)
-    sender.send(b"~")
-    sender.until("Idle")
-    require(sender.place()[:2] == [10.0, 0.0], f"the program goes on to {sender.place()}")
-    go(sender, b"G0 X0")
     sender.close()
     drives.end()
     require(drives.counts() == [0, 0, 0], f"the shafts stand at {drives.counts()}")
@@ -174,65 +129,6 @@ def again(drives):
     stood = json.loads(pathlib.Path(state).read_text())["position_mm"]
     require(2.0 < stood[0] < 49.0, f"the state file says {stood}")
     require([round(at * STEPS) for at in stood] == drives.counts(), f"the state file says {stood}, the shafts stand at {drives.counts()}")
-
-
-def home(drives):
-    """$H finds all references, $HX one; a reset ends the search; without a probe nothing is searched for by one."""
-    sender = unlocked(drives)
-    require(say(sender, b"$H") == "ok" and sender.place() == [0.0, 0.0, 0.0], "$H")  # the shafts stood at other places
-    require(go(sender, b"G0 X5 Y7 Z-3") == [5.0, 7.0, -3.0], "it does not move behind $H")
-    require(say(sender, b"$HX") == "ok" and sender.place() == [0.0, 7.0, -3.0], f"$HX: {sender.place()}")
-    require(say(sender, b"G38.2 Z-50 F100") == "error:20" and sender.place()[2] == -3.0, "a probe")
-    require(go(sender, b"G0 X150") == [150.0, 7.0, -3.0], "it does not move behind $HX")
-    sender.send(b"$H\n")
-    time.sleep(0.4)
-    sender.send(b"\x18")
-    await_line(sender, "ALARM:6")
-    await_line(sender, "Grbl 1.1")
-    sender.until("Alarm")
-    require(say(sender, b"$H") == "ok" and sender.until("Idle") and sender.place() == [0.0, 0.0, 0.0], "$H behind that")
-    go(sender, b"G0 X1 Y1")
-    sender.close()
-    drives.end()
-    require(drives.counts() == [320, 320, 0], f"the shafts stand at {drives.counts()}")
-
-
-def home_ends(drives):
-    """A reset or a door ends the search, behind other motions, too: the shafts stand at once, and the machine goes on from there."""
-    sender, stops = unlocked(drives), []
-    for command, stop, alarm in ((b"$H", b"\x18", "ALARM:6"), (b"$H", b"\x84", "ALARM:7"), (b"$HX", b"\x18", "ALARM:6"), (b"$HX", b"\x18\x18", "ALARM:6")):
-        require(say(sender, b"$H") == "ok", "$H")
-        go(sender, b"G90 G0 X150 Y20")
-        sender.send(command + b"\n")
-        time.sleep(0.4)
-        stops.append((time.monotonic(), command, stop))
-        sender.send(stop)
-        await_line(sender, alarm)
-        if b"\x18" in stop:
-            await_line(sender, "[MSG:'$H'")
-        time.sleep(1.0)
-        require(say(sender, b"$X") == "ok", f"{command}, {stop}: it stays locked: {sender.text}")
-        go(sender, b"G91 G0 X1")
-    sender.close()
-    drives.end()
-    start_s, rows = drives.drives[0].start_s(), drives.drives[0].shaft_rows()
-    for at, command, stop in stops:
-        way = [place for t, place in rows if -0.1 < t + start_s - at < 0.0]
-        still = [place for t, place in rows if 0.2 < t + start_s - at < 0.9]
-        require(abs(way[-1] - way[0]) > 100, f"{command}: it does not search")
-        require(max(still) - min(still) < 1.0, f"{command}, {stop!r}: it moves by {max(still) - min(still)} counts after 0.2 s")
-
-
-def no_home(drives):
-    """Drives whose profile has no home are not searched for one: the answer names their axes, and nothing moves."""
-    sender = unlocked(drives)
-    for line, named in ((b"$H", "X, Y, Z"), (b"$HZY", "Y, Z")):
-        sender.send(line + b"\n")
-        told = sender.line()
-        require(told.startswith(f"[MSG:No home of {named}: the profile of its drive has no command home") and sender.line() == "error:5", told)
-    require(sender.report().startswith("<Idle"), "it is not idle")
-    sender.close()
-    drives.end()
 
 
 def faults(drives):
@@ -406,12 +302,12 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, holds, again, home, home_ends, no_home, faults, dead_drive, spindle, silent_spindle, inputs, others)}
-DRIVES = {"home": {"extra": ["--position", "700"]}, "home_ends": {"extra": ["--position", "700"]}, "faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
+CASES = {case.__name__: case for case in (motion, again, faults, dead_drive, spindle, silent_spindle, inputs, others)}
+DRIVES = {"faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 
 # Drives that follow target positions: their profiles, with keys of their addresses, and what of the cases they are for.
-PROFILES = {"lexium32m": ("&ramp=1e6", ("motion", "holds", "no_home")), "leadshine-pr": ("", ("motion", "holds", "home", "home_ends"))}
+PROFILES = {"lexium32m": ("&ramp=1e6", ("motion",)), "leadshine-pr": ("", ("motion",))}
 
 
 def case_of(whole):
@@ -423,14 +319,13 @@ def case_of(whole):
 
     def run(tool, folder):
         with ServedDrives(tool, folder, **how) as drives:
-            drives.beside_mm = 0.3 if profile else 0.02
             CASES[name](drives)
 
     return run
 
 
 def main():
-    names = sys.argv[2:] or [*(case for case in CASES if case != "no_home"), *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
+    names = sys.argv[2:] or [*CASES, *(f"{case}@{profile}" for profile, (_, cases) in PROFILES.items() for case in cases)]
     return run_cases({name: case_of(name) for name in names}, sys.argv[1], names)
 
 

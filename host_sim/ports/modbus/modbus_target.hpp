@@ -15,6 +15,12 @@
 
 namespace splinefeed::host {
 
+/// What drives are reached by, and its time.
+struct DriveLines {
+    hal::modbus::MakeLine make = hal::modbus::make_link;
+    hal::Clock* clock = &hal::system_clock(); ///< must outlive the target
+};
+
 /// A port with the drives of a table, in the same order.
 template <class Port>
 class ModbusTarget : public RunTarget {
@@ -22,9 +28,13 @@ protected:
     /// Connects to the drives. Throws TargetError.
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
-    ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
+    ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
+                 const DriveLines& lines, WiringOf wiring_of)
         : machine_(&machine), table_(std::move(table)), claims_(table_),
-          port_(wiring_of(table_, machine), {.orders = options.orders, .interrupted = options.interrupted}) {
+          port_(wiring_of(table_, machine), {.orders = options.orders,
+                                             .interrupted = options.interrupted,
+                                             .make_line = lines.make,
+                                             .clock = lines.clock}) {
         require(port_.open());
     }
 

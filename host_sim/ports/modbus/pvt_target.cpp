@@ -60,8 +60,9 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
     }
 }
 
-PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options)
-    : ModbusTarget(std::move(table), machine, options, pvt_wiring) {
+PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
+                     const DriveLines& lines)
+    : ModbusTarget(std::move(table), machine, options, lines, pvt_wiring), clock_(lines.clock) {
     least_segment_us_ = port_.least_segment_us();
 }
 
@@ -112,7 +113,7 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
             if (wiring.axes[k].machine_axis >= 0) {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
                 // One that is away went on to where all were to stop.
-                const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
+                const bool online = clock_->now_us() - report.answered_us < stale_us;
                 AxisPlace& at = out.emplace_back(place(i, axis, counts_of(i, k), online));
                 at.mm = port_.known_position(i, k) ? at.mm : std::nullopt;
             }

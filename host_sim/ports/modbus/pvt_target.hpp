@@ -20,7 +20,8 @@ void check_pvt_range(const MachineDescription& machine, double segment_us);
 class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
 public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
-    PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
+    PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
+              const DriveLines& lines = {});
 
     [[nodiscard]] TargetFacts facts() const override;
     void check(const MachineDescription& machine, double segment_us) const override {
@@ -33,6 +34,7 @@ public:
 private:
     [[nodiscard]] int counts_of(std::size_t drive, std::size_t drive_axis) const;
 
+    const hal::Clock* clock_;
     double least_segment_us_ = 0.0;
 };
 

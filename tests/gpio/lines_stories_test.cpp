@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+//
+// The stories of tests/live/stories.txt on simulated step lines.
+#include "lines_world.hpp"
+#include "live/shaft_teller.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed_test;
+
+TEST_CASE("stories of a machine on step lines", "[live]") {
+    tell_stories_of<LinesWorld>({"lines"}, 1);
+}
