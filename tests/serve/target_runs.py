@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 """`splinefeed serve` on three simulated Modbus drives, each a process: target_runs.py TOOL [CASE...].
 
-What the drives record decides: where their shafts stand at the end, and that none moves when nothing was asked for. Stops, faults and homing are stories of tests/live/stories.txt.
+What the drives record decides: where their shafts stand at the end, and that none moves when nothing was asked for. Stops, faults and homing are stories of tests/live/shaft_stories.txt.
 """
-import contextlib
 import json
 import math
 import os
@@ -15,9 +14,6 @@ import sys
 import time
 
 from sender import Failed, Sender, ServedDrives, run_cases
-from case_runs import pymodbus_missing
-from input_runs import Module
-from spindle_runs import Vfd
 
 STEPS = 320.0
 
@@ -175,114 +171,6 @@ def dead_drive(drives):
     require(status == 1 and "did not confirm its stop and may still move" in told, f"exit status {status}: {told}")
 
 
-@contextlib.contextmanager
-def with_spindle(drives):
-    """The inverter of the machine's spindle."""
-    vfd = Vfd(drives.folder, 2000.0)
-    try:
-        text = pathlib.Path(drives.machine).read_text().replace("[spindle]\n", f'[spindle]\nvfd = "{vfd.address}?profile=vfd-delta-ms300"\n')
-        pathlib.Path(drives.machine).write_text(text)
-        yield vfd
-    finally:
-        vfd.process.kill()
-        vfd.process.wait()
-
-
-def silent_spindle(drives):
-    """An inverter that is silent in the cut: an alarm, and the server's end says that the spindle may still turn, whatever came between."""
-    if why := pymodbus_missing():
-        print(f"silent_spindle is left out: {why}")
-        return
-    with with_spindle(drives) as vfd:
-        for resets in (False, True):
-            sender = unlocked(drives)
-            require(say(sender, b"M3 S6000") == "ok", "M3")
-            sender.send(b"G91 G1 X50 F600\n")
-            underway(sender, 1.0)
-            vfd.process.send_signal(signal.SIGSTOP)
-            await_line(sender, "ALARM:14")
-            sender.until("Alarm")
-            if resets:
-                sender.send(b"\x18")
-                time.sleep(2.5)
-            sender.close()
-            status, told = drives.server.end()
-            require(status == 1 and "the spindle did not confirm that it stands and may still turn" in told, f"exit status {status}: {told}")
-            vfd.process.send_signal(signal.SIGCONT)
-            time.sleep(1.0)
-
-
-def spindle(drives):
-    """M3 is answered when the spindle has its speed; a reset and the server's end stop it; M0 and M6 wait for the operator."""
-    if why := pymodbus_missing():
-        print(f"spindle is left out: {why}")
-        return
-    with with_spindle(drives) as vfd:
-        sender = unlocked(drives)
-        begun = time.monotonic()
-        require(say(sender, b"M3 S9000") == "ok" and 0.05 < time.monotonic() - begun < 5.0, "M3")
-        require(abs(vfd.rows()[-1][1] - 150.0) < 3.0, f"it turns at {vfd.rows()[-1]}")
-        sender.send(b"G1 X50 F3000\n")
-        underway(sender, 5.0)
-        sender.send(b"\x18")
-        await_line(sender, "Grbl 1.1")
-        time.sleep(0.5)
-        require(vfd.rows()[-1][1] < 1.0, "it turns behind a reset")
-        require(say(sender, b"M3 S6000") == "ok" and say(sender, b"M0") == "ok", "M3, M0")
-        require(sender.report().startswith("<Hold:0"), "M0 does not hold")
-        sender.send(b"~G0 X0\nM6 T1\n")
-        sender.until("Tool")
-        sender.send(b"~")
-        sender.until("Idle")
-        sender.send(b"M3 S6000\n")
-        time.sleep(0.5)
-        sender.close()
-        drives.end()
-        time.sleep(0.3)
-        require(vfd.rows()[-1][1] < 1.0, "it turns behind the end")
-
-
-def inputs(drives):
-    """M66 waits for an input of a module, and answers when it has come or its time is over; a reset ends the wait."""
-    if why := pymodbus_missing():
-        print(f"inputs is left out: {why}")
-        return
-    module = Module(drives.folder)
-    try:
-        text = pathlib.Path(drives.machine).read_text()
-        pathlib.Path(drives.machine).write_text(
-            text + f'[[module]]\nname = "io"\naddress = "{module.address}"\n[[input]]\nnumber = 2\nmodule = "io"\ninput = 2\n')
-        sender = unlocked(drives)
-        sender.send(b"G1 X2 F3000\nM66 P2 L3 Q20\nG1 X4\n")
-        require(sender.line() == "ok", "no answer")
-        time.sleep(1.0)
-        require(sender.report().startswith("<Run") and sender.place()[0] == 2.0, "it does not wait")
-        for switched in (b"\xa0", b"!", b"~", b"\x84", b"~"):  # coolant, hold, door: no answers
-            sender.send(switched)
-            time.sleep(0.3)
-            require(sender.place()[0] == 2.0 and not sender.text, f"{switched} ends the wait: {sender.text}")
-        module.turn(2)
-        require(sender.line() == "ok" and sender.line() == "ok" and sender.until("Idle") and sender.place()[0] == 4.0, "it does not go on")
-        begun = time.monotonic()
-        require(say(sender, b"M66 P2 L4 Q0.5") == "ok" and 0.4 < time.monotonic() - begun < 3.0, "the time-out")
-        sender.until("Hold:0")
-        sender.send(b"~")
-        sender.send(b"M66 P2 L4 Q20\nG1 X9\n")
-        time.sleep(0.3)
-        sender.send(b"\x18")
-        await_line(sender, "Grbl 1.1")
-        require(say(sender, b"M3 S100") == "ok" and sender.place()[0] == 4.0, "a reset does not end the wait")
-        sender.send(b"M66 P1 L3 Q20\n")
-        require("M66: there is no input" in sender.line() and sender.line() == "ok", "an input that the machine does not have")
-        sender.until("Hold:0")
-        sender.send(b"\x18")
-        sender.close()
-        drives.end()
-    finally:
-        module.process.kill()
-        module.process.wait()
-
-
 def others(drives):
     """Who comes second is refused, and told who is first; with its end that is over."""
     program = pathlib.Path(drives.folder, "line.csv")
@@ -302,7 +190,7 @@ def others(drives):
     require(subprocess.run([drives.tool, *commands[1]], capture_output=True, timeout=20).returncode == 0, "link is still refused")
 
 
-CASES = {case.__name__: case for case in (motion, again, faults, dead_drive, spindle, silent_spindle, inputs, others)}
+CASES = {case.__name__: case for case in (motion, again, faults, dead_drive, others)}
 DRIVES = {"faults": {"extra": ["--max-velocity", "26000"]}}  # of simulated drives
 
 

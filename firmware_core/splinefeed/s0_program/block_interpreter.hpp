@@ -179,7 +179,7 @@ private:
     [[nodiscard]] bool assigns() const noexcept;
     void set_probe(bool contact, const AxisPoint& program) noexcept;
 
-    // Steps: block_steps.cpp.
+    // Steps: block_steps.cpp, motion_steps.cpp.
     [[nodiscard]] Pull next_of_block(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] bool event_is_due() noexcept;
     [[nodiscard]] int count_events() noexcept;
