@@ -140,6 +140,13 @@ void LiveMachine::keep() {
     settings_.state->ends(now);
 }
 
+// An axis whose place was lost is found by a search, or by a drive that knows it, not by who unlocks the machine: what
+// he is told is where it stood before. @pre the mutex is held
+void LiveMachine::set_known(std::uint32_t axes) noexcept {
+    unlocked_axes_ &= ~(known_.axes & ~axes);
+    known_.axes = axes;
+}
+
 // Those of segments that are executed are forgotten by come_to().
 void LiveMachine::begin_label(std::uint64_t line, std::uint64_t moves) {
     const std::lock_guard lock(mutex_);

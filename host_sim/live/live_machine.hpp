@@ -187,6 +187,7 @@ private:
     }
 
     // live_machine.cpp
+    void set_known(std::uint32_t axes) noexcept;
     void begin_label(std::uint64_t line, std::uint64_t moves);
     void begin_to_move();
     void give_up_homing() noexcept;
@@ -234,7 +235,6 @@ private:
     TargetFacts facts_{};
     MakeOutputs make_outputs_;
     std::unique_ptr<ProgramOutputs, DeleteInTime> outputs_;
-    std::uint32_t unlocked_axes_ = 0; // that stand where they are told to when the operator moves them: the others home
     std::optional<TargetFeed> feed_;
     // Of the planner's thread:
     std::string sentence_;                         // of the last reading,
@@ -248,7 +248,8 @@ private:
     mutable std::mutex mutex_; // protects the members below
     Orders orders_;
     Known known_;
-    std::deque<Label> labels_; // from that of the segment where the machine is
+    std::deque<Label> labels_;        // from that of the segment where the machine is
+    std::uint32_t unlocked_axes_ = 0; // stand where they are told to when the operator moves them: the others are found
     std::string stop_why_;
     std::uint64_t submitted_ = 0; // segments
     std::uint64_t finished_ = 0;  // of motions that are over

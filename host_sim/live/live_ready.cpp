@@ -23,11 +23,12 @@ void LiveMachine::find_place() {
     }
     phase_ = Phase::open;
     const std::lock_guard lock(mutex_);
-    known_.axes = facts_.has_feedback ? 0U : known_.axes;
+    std::uint32_t known = facts_.has_feedback ? 0U : known_.axes;
     for (const RunTarget::AxisPlace& at : places) {
         known_.mm[at.axis] = at.mm.value_or(known_.mm[at.axis]);
-        known_.axes |= at.mm ? 1U << at.axis : 0U;
+        known |= at.mm ? 1U << at.axis : 0U;
     }
+    set_known(known);
 }
 
 // Where the motion begins the machine has to stand: else a position would get another name.
@@ -189,7 +190,8 @@ void LiveMachine::find_references(std::uint32_t axes) {
         ready_.placed = known;
         {
             const std::lock_guard lock(mutex_);
-            known_.axes &= ~search;
+            set_known(known_.axes & ~search);
+            unlocked_axes_ &= ~search;
         }
         for (const unsigned k : indices(machine_->settings.axes)) {
             found.start[k] = (search >> k & 1U) != 0 ? 0 : found.start[k];
@@ -207,7 +209,7 @@ void LiveMachine::find_references(std::uint32_t axes) {
         reopen(); // where it stands now
     }
     const std::lock_guard lock(mutex_);
-    known_.axes = homed ? known | search : known_.axes | (known & ~search);
+    set_known(homed ? known | search : known_.axes | (known & ~search));
     known_.homing = homed                                         ? HomingPhase::done
                     : failure.remedy == hal::Remedy::clear_switch ? HomingPhase::not_cleared
                                                                   : HomingPhase::failed;

@@ -247,7 +247,7 @@ void LiveMachine::fail(const std::string& sentence, Alarm alarm) {
         static_cast<void>(looks && look_where(true));
     } catch (const std::exception&) { // it may be why
         const std::lock_guard lock(mutex_);
-        known_.axes = 0;
+        set_known(0);
     }
     {
         const std::lock_guard lock(mutex_);
@@ -304,7 +304,7 @@ bool LiveMachine::look_where(bool at_once) {
     known_.speed_mm_s =
         std::sqrt(way_sq) * us_per_s / static_cast<double>(std::max<std::uint64_t>(1, now_us - looked_us_));
     looked_us_ = now_us;
-    known_.axes = at_once ? known_.axes & axes : known_.axes;
+    set_known(at_once ? known_.axes & axes : known_.axes);
     known_.places = std::move(places);
     return axes == all_axes();
 }

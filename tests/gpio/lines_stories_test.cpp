@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The stories of tests/live/stories.txt on simulated step lines.
+// The stories of tests/live/shaft_stories.txt on simulated step lines.
 #include "lines_world.hpp"
 #include "live/shaft_teller.hpp"
 #include "support/catch.hpp"

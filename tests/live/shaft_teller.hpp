@@ -198,7 +198,7 @@ private:
         for (int n = std::stoi(what); n > 0; --n) {
             const std::string& step = steps[static_cast<std::size_t>(dice_.below(static_cast<int>(steps.size())))];
             INFO(step);
-            tell({0, true, step});
+            tell({"", true, step});
             wait(dice_.below(400));
         }
     }

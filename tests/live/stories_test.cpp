@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The stories of stories.txt on a target that says what it was told, and on the simulated machine.
+// The stories of stories.txt on a target that says what it was told, those of shaft_stories.txt on the simulated
+// machine.
 #include "host/temporary_folder.hpp"
 #include "live/shaft_teller.hpp"
 #include "live/sim_world.hpp"
@@ -37,7 +38,7 @@ protected:
         : word == "order"      ? event(words, false)
         : word == "stand"      ? event(words, true)
         : word == "at-renewal" ? world_.at_renewal([this, rest] {
-              tell({0, true, rest});
+              tell({"", true, rest});
           })
                                : Teller::order(word, words, rest);
     }

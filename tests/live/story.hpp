@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stories of stories.txt: for which door and which targets each is told, and its steps.
+// The stories of stories.txt and shaft_stories.txt: for which door and which targets each is told, and its steps.
 #pragma once
 
 #include "support/places.hpp"
@@ -13,7 +13,7 @@
 namespace splinefeed_test {
 
 struct Step {
-    int line = 0;
+    std::string at{}; ///< "stories.txt:7"
     bool at_once = false;
     std::string text{};
 };
@@ -61,23 +61,31 @@ inline Story story_of(const std::string& head, const std::string& name) {
     return out;
 }
 
+/// The head of a story, or some of its steps.
+inline void read_line(std::vector<Story>& out, const std::string& at, const std::string& line) {
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos && line[0] != ' ' && line[0] != '#') {
+        out.push_back(story_of(line.substr(0, colon), line.substr(colon + 2)));
+    }
+    std::istringstream words(line[0] == ' ' ? "|" + line : "");
+    for (std::string word; words >> word;) {
+        if (word == "|" || word == "+") {
+            out.back().steps.push_back({at, word == "+"});
+        } else {
+            std::string& text = out.back().steps.back().text;
+            text += (text.empty() ? "" : " ") + word;
+        }
+    }
+}
+
 inline std::vector<Story> read_stories() {
     std::vector<Story> out;
-    std::ifstream in(splinefeed::test::source_folder() + "/tests/live/stories.txt");
-    std::string line;
-    for (int number = 1; std::getline(in, line); ++number) {
-        const std::size_t colon = line.find(": ");
-        if (colon != std::string::npos && line[0] != ' ' && line[0] != '#') {
-            out.push_back(story_of(line.substr(0, colon), line.substr(colon + 2)));
-        }
-        std::istringstream words(line[0] == ' ' ? "|" + line : "");
-        for (std::string word; words >> word;) {
-            if (word == "|" || word == "+") {
-                out.back().steps.push_back({number, word == "+"});
-            } else {
-                std::string& text = out.back().steps.back().text;
-                text += (text.empty() ? "" : " ") + word;
-            }
+    const std::string folder = splinefeed::test::source_folder() + "/tests/live/";
+    for (const std::string name : {"stories.txt", "shaft_stories.txt"}) {
+        std::ifstream in(folder + name);
+        std::string line;
+        for (int number = 1; std::getline(in, line); ++number) {
+            read_line(out, name + ":" + std::to_string(number), line);
         }
     }
     return out;

@@ -40,7 +40,7 @@ public:
         words >> word >> std::ws;
         std::string rest = text.substr(words.eof() ? text.size() : static_cast<std::size_t>(words.tellg()));
         if (word == "run:" || word == "serve:") {
-            serves_ == (word == "serve:") ? tell({step.line, true, rest}) : void();
+            serves_ == (word == "serve:") ? tell({step.at, true, rest}) : void();
             return;
         }
         const std::uint64_t begins_us = clock_.now_us();
@@ -181,7 +181,7 @@ void tell_stories(const std::vector<std::string>& target, const Make& make, int 
                     CAPTURE(round);
                     const auto teller = make(serves, round);
                     for (const Step& step : story.steps) {
-                        INFO("stories.txt:" << step.line << ": " << step.text);
+                        INFO(step.at << ": " << step.text);
                         teller->tell(step);
                     }
                     teller->end();

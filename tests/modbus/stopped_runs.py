@@ -13,7 +13,7 @@ Each run has a target, signals and a situation by its seed. It is judged by what
 - a spindle that turned is told to stop, and stands.
 
 It prints a table: target, situation, worst time to standstill by the signals, most counts that a shaft moved after the exit.
-The same on a virtual clock, and on other targets: tests/live/stories.txt."""
+The same on a virtual clock, and on other targets: tests/live/shaft_stories.txt."""
 import argparse
 import concurrent.futures
 import json

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The stories of tests/live/stories.txt on simulated Modbus drives.
+// The stories of tests/live/shaft_stories.txt on simulated Modbus drives.
 #include "live/shaft_teller.hpp"
 #include "ports/drive_world.hpp"
 #include "support/catch.hpp"

@@ -136,7 +136,7 @@ private:
 class PvtWorld final : public DriveWorld {
 public:
     explicit PvtWorld(bool serial)
-        : DriveWorld({.told_counts = 1.0, .path_counts = 3.2, .stop_ms = serial ? 1000.0 : 600.0}, serial, serial) {}
+        : DriveWorld({.told_counts = 1.0, .path_counts = 3.2, .stop_ms = serial ? 700.0 : 500.0}, serial, serial) {}
 
 private:
     [[nodiscard]] std::unique_ptr<host::DriveModel> make_drive(unsigned axis) override {
@@ -173,11 +173,15 @@ public:
     static constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
 
     explicit SetpointWorld(const std::string& profile)
-        : DriveWorld({.told_counts = 2.0, .path_counts = 12.0, .stop_ms = 800}, host::find_profile(profile).link.rtu,
-                     profile == "leadshine-pr"),
+        : DriveWorld({.told_counts = 2.0, .path_counts = 12.0, .stop_ms = stop_ms(profile)},
+                     host::find_profile(profile).link.rtu, profile == "leadshine-pr" || profile == "oriental-az"),
           profile_(host::find_profile(profile)) {}
 
 private:
+    // A hold travels what is ahead of the drives: the more, the longer they wait for a target on their wires.
+    static double stop_ms(const std::string& profile) {
+        return profile == "cia402-kinco" ? 750.0 : profile == "oriental-az" ? 500.0 : 400.0;
+    }
     // Ramps of four times the machine file's acceleration: the path may use all of it.
     [[nodiscard]] std::string keys() const override {
         return (profile_.name == "cia402-index" ? "" : "&ramp=1.28e6") + ("&profile=" + profile_.name);

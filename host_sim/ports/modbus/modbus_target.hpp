@@ -93,7 +93,6 @@ private:
         return all.empty() ? "; nothing was moved" : text.text();
     }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
-    [[nodiscard]] Signs signs() override { return {.least_ahead_us = 220'000}; }
     [[nodiscard]] std::string sentence(const hal::PortFailure& failure) const override {
         return drive_sentence(table_, failure) + unconfirmed_drives(stopped());
     }

@@ -32,6 +32,7 @@ public:
     void describe(Summary& summary) const override;
 
 private:
+    [[nodiscard]] Signs signs() override { return {.least_ahead_us = port_.least_ahead_us()}; }
     [[nodiscard]] int counts_of(std::size_t drive, std::size_t drive_axis) const;
 
     const hal::Clock* clock_;

@@ -164,7 +164,9 @@ std::vector<RunTarget::AxisPlace> SetpointTarget::standing() {
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const auto axis = static_cast<unsigned>(axis_of(i));
         const double counts = machine_->inverted[axis] ? -port_.standing_counts(i) : port_.standing_counts(i);
-        out.push_back(standing_place(axis, counts, port_.placed(i)));
+        const std::optional<double> kept = port_.kept_counts(i);
+        out.push_back(standing_place(axis, port_.placed(i) ? counts : kept.value_or(counts),
+                                     port_.placed(i) || kept.has_value()));
     }
     return out;
 }

@@ -39,6 +39,7 @@ public:
     void describe(Summary& summary) const override;
 
 private:
+    [[nodiscard]] Signs signs() override { return {.least_ahead_us = port_.least_ahead_us()}; }
     [[nodiscard]] std::size_t axis_of(std::size_t drive) const noexcept;
 };
 

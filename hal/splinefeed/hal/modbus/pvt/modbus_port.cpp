@@ -281,6 +281,13 @@ std::uint32_t ModbusPort::executed() const noexcept {
     return least;
 }
 
+// They slow down by what they have. What waits for its exchange is on no drive yet: on a serial line some segments.
+std::uint64_t ModbusPort::least_ahead_us() const noexcept {
+    constexpr double late_us = 20'000.0;
+    constexpr double on_their_way = 8.0; // segments
+    return static_cast<std::uint64_t>(2000.0 * settings_.stop_reserve_ms + late_us + on_their_way * times_.segment_us);
+}
+
 int ModbusPort::room() const noexcept {
     std::size_t room = PvtClient::queue_capacity;
     for (const PortDrive& drive : drives_) {

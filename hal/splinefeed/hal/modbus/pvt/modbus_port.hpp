@@ -48,6 +48,8 @@ public:
     /// Waits for a command, where the motion before was halted. A drive that lost its power then needs prepare().
     [[nodiscard]] PortFailure renew(const FeedSegment& first) override;
     [[nodiscard]] int room() const noexcept override;
+    /// With less motion than this, of which the end is not declared, the drives slow down. [us]
+    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept;
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override { complete_ = true; }
     PortState poll() noexcept override;

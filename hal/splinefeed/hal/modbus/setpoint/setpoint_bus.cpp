@@ -11,6 +11,7 @@ constexpr int probes = 20;
 constexpr std::uint32_t frames_a_target = 3; // for a drive without a target group: speed, target, start
 constexpr std::uint32_t least_period_us = 2000;
 constexpr std::uint64_t end_retry_us = 300'000; // if a drive does not report arrival by then, the end is sent again
+constexpr std::uint64_t passing_us = 150'000;   // a state between two others lasts less
 constexpr double margin = 1.3;                  // on measured times
 constexpr std::uint32_t slack_us = 1000;        // on the line's rate
 
@@ -76,15 +77,38 @@ void SetpointBus::reset() noexcept {
         fresh.answered_us = slot.report.answered_us;
         fresh.counts = slot.report.counts;
         fresh.late_us = slot.report.late_us;
+        fresh.lost = slot.report.lost;
         slot.report = fresh;
         slot.stop_request.store(StopRequest::none, std::memory_order_relaxed);
         slot.word_since_us = slot.setpoint_us = slot.rest_setpoint_us = slot.end_sent_us = slot.path_rest_us = 0;
+        slot.heard_us = slot.back_us = slot.off_since_us = 0;
     }
+}
+
+void SetpointBus::set_lost(std::size_t drive, bool lost) noexcept {
+    const std::lock_guard lock(mutex_);
+    drives_[drive].report.lost = lost;
 }
 
 SetpointReport SetpointBus::report(std::size_t drive) const noexcept {
     const std::lock_guard lock(mutex_);
     return drives_[drive].report;
+}
+
+// A drive that was switched off and on counts from elsewhere. It is off then, or in a fault. One that is off though
+// nobody told it to stop may have been. On a serial line one status proves nothing: it may be another drive's.
+void SetpointBus::note_loss(Slot& slot, std::uint64_t status_us) noexcept {
+    const DriveState state = slot.drive.reading().state;
+    const bool off = state == DriveState::disabled || state == DriveState::not_ready;
+    const bool suspect = off || state == DriveState::unknown;
+    const bool told = slot.stop_request.load(std::memory_order_relaxed) != StopRequest::none;
+    const bool again = off && slot.off_since_us != 0;
+    const bool lasts = suspect && slot.off_since_us != 0 && status_us > slot.off_since_us + passing_us;
+    const bool was_away = slot.back_us != 0 && status_us >= slot.back_us;
+    slot.report.lost =
+        slot.report.lost || (!told && (again || lasts)) || (was_away && (suspect || state == DriveState::fault));
+    slot.off_since_us = !suspect ? 0 : slot.off_since_us == 0 ? status_us : slot.off_since_us;
+    slot.back_us = was_away ? 0 : slot.back_us;
 }
 
 void SetpointBus::publish_report(Slot& slot) noexcept {
@@ -94,14 +118,20 @@ void SetpointBus::publish_report(Slot& slot) noexcept {
         slot.position_us = position_us;
         slot.standstill.update(position_us, slot.drive.reading().position_q16);
     }
+    const std::uint64_t heard_us = slot.drive.answered_us();
+    slot.back_us = slot.heard_us != 0 && heard_us > slot.heard_us + restart_us ? slot.drive.last_answer().arrived_us
+                                                                               : slot.back_us;
+    slot.heard_us = heard_us;
     if (const std::uint64_t status_us = slot.drive.status_us(); status_us > slot.report.status_us) {
         slot.report.status_us = status_us;
+        note_loss(slot, status_us);
         slot.word_since_us = !slot.drive.says_it_stands() ? 0
                              : slot.word_since_us == 0    ? status_us
                                                           : slot.word_since_us;
         const std::uint64_t by_word_us = slot.word_since_us != 0 ? status_us - slot.word_since_us : 0;
         slot.report.still_us = std::max(slot.standstill.still_us(), by_word_us);
     }
+    slot.report.position_us = slot.drive.position_us();
     slot.report.reading = slot.drive.reading();
     slot.report.answered_us = slot.drive.answered_us();
     slot.report.last = slot.drive.last_answer();

@@ -39,6 +39,8 @@ struct SetpointReport {
     DriveReading reading;
     std::uint64_t answered_us = 0;
     std::uint64_t status_us = 0;              ///< earliest instant of `reading`; 0: none since start()
+    std::uint64_t position_us = 0;            ///< earliest instant of its position
+    bool lost = false;                        ///< it was off, or may have been: its counts may mean another place
     std::uint64_t still_us = 0;               ///< for how long it had stood at last, by its word or its positions
     std::uint64_t setpoint_us = 0;            ///< arrival of the last target; 0: none
     std::uint64_t rest_setpoint_us = 0;       ///< arrival of the first one since the motion's clock stood last; 0: none
@@ -60,6 +62,8 @@ class SetpointBus {
 public:
     /// A target that is later than this, beyond a period, stops all drives. [us]
     static constexpr std::uint32_t allowed_late_us = 20'000;
+    /// A drive that was silent for longer may have been switched off and on. [us]
+    static constexpr std::uint64_t restart_us = 1'000'000;
 
     explicit SetpointBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
     SetpointBus(const SetpointBus&) = delete;
@@ -86,6 +90,8 @@ public:
     [[nodiscard]] std::uint32_t late_stops(std::size_t drive) const noexcept {
         return drives_[drive].late_stops.load(std::memory_order_relaxed);
     }
+    /// What a drive counts means a place from now on (false), or does not any more: until it is found again.
+    void set_lost(std::size_t drive, bool lost) noexcept;
     /// Processor time that the thread has used. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
     /// Stops a drive: sends the request with precedence, repeatedly, until the drive has answered. The drive gets no
@@ -104,6 +110,9 @@ private:
         Standstill standstill;
         std::uint64_t position_us = 0;   // of the last position in `standstill`
         std::uint64_t word_since_us = 0; // it says that it stands since then; 0: it does not
+        std::uint64_t heard_us = 0;      // it answered last; 0: not since start()
+        std::uint64_t back_us = 0;      // since then it answers again; 0: it was not silent, or a status has come since
+        std::uint64_t off_since_us = 0; // it reports that it is off, or nothing that it knows; 0: it does not
         std::atomic<StopRequest> stop_request{StopRequest::none};
         std::atomic<std::uint32_t> late_stops{0};
         std::uint64_t setpoint_us = 0;      // arrival of the last target; 0: none
@@ -119,6 +128,7 @@ private:
     void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint64_t arrives_us,
                  std::uint32_t period_us) noexcept;
     void publish_report(Slot& slot) noexcept;
+    static void note_loss(Slot& slot, std::uint64_t status_us) noexcept;
     void carry_out(Slot& slot, StopRequest request) noexcept;
     void read_statuses() noexcept;
     void run_period(SetpointMotion& motion, std::uint32_t period_us) noexcept;

@@ -81,6 +81,23 @@ PortFailure SetpointGroup::await_standstill(const PortOrders& orders) const {
     return {};
 }
 
+// One that is enabled, or was stopped, was not switched off: it would have to be enabled. A fault may be what it was
+// switched on with, if nobody heard it before.
+bool SetpointGroup::keeps_place(std::size_t i) const noexcept {
+    const SetpointReport last = report(i);
+    if (!slots_[i].frame.aligned() || last.lost) {
+        return false;
+    }
+    switch (drive(i).reading().state) {
+    case DriveState::enabled:
+    case DriveState::moving:
+    case DriveState::quick_stop:
+    case DriveState::halted: return true;
+    case DriveState::fault: return settings_->clock->now_us() < last.answered_us + SetpointBus::restart_us;
+    default: return false;
+    }
+}
+
 PortFailure SetpointGroup::configure(const PortOrders& orders) {
     PortFailure trouble;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -125,6 +142,13 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first, const PortOrders
     if (PortFailure trouble = configure(orders)) {
         return trouble;
     }
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        if (homes(orders, slots_[i].wiring)) {
+            slots_[i].bus->set_lost(slots_[i].index, true);
+        } else if (placed && slots_[i].frame.aligned() && report(i).lost) {
+            return {"it was switched off and on: nobody knows where it stands", i};
+        }
+    }
     std::size_t ready = 0;
     for (const bool enabled : {false, true}) {
         for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -146,8 +170,11 @@ PortFailure SetpointGroup::make_ready(const FeedSegment& first, const PortOrders
             const std::int64_t start = first.start[static_cast<std::size_t>(slot.wiring.axis)];
             if (!enabled) {
                 ++ready;
-            } else if (!(placed && slot.frame.aligned()) && !slot.frame.align(drive(i).reading().position_q16, start)) {
-                return {AxisFrame::out_of_range, i};
+            } else if (!(placed && slot.frame.aligned())) {
+                if (!slot.frame.align(drive(i).reading().position_q16, start)) {
+                    return {AxisFrame::out_of_range, i};
+                }
+                slot.bus->set_lost(slot.index, false);
             }
         }
     }
@@ -239,6 +266,15 @@ std::optional<std::size_t> SetpointGroup::not_arrived(SetpointMotion& motion) co
         }
     }
     return std::nullopt;
+}
+
+bool SetpointGroup::heard_since(std::uint64_t since_us) const noexcept {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        if (report(i).position_us < since_us) {
+            return false;
+        }
+    }
+    return true;
 }
 
 std::uint64_t SetpointGroup::ahead_us() const noexcept {

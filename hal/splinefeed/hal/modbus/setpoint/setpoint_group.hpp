@@ -34,6 +34,9 @@ public:
     [[nodiscard]] bool placed(std::size_t i) const noexcept {
         return slots_[i].wiring.profile->keeps_homed() && drive(i).reading().homed;
     }
+    /// Whether the drive's counts still mean what they did in the motion before: it was not off meanwhile.
+    /// @pre open, not started
+    [[nodiscard]] bool keeps_place(std::size_t i) const noexcept;
     /// Enables all drives, homes them if set, and maps their positions to the start of the first segment. Blocks.
     /// @pre open, not started
     /// @param placed  positions that have a meaning keep it
@@ -71,6 +74,8 @@ public:
     [[nodiscard]] std::optional<std::size_t> not_ready(std::uint64_t since_us) const noexcept;
     /// The first drive that is not at the end of the motion; empty: there is none.
     [[nodiscard]] std::optional<std::size_t> not_arrived(SetpointMotion& motion) const noexcept;
+    /// Whether the positions of all drives are of that instant or later.
+    [[nodiscard]] bool heard_since(std::uint64_t since_us) const noexcept;
     /// The window within which a drive is where it ought to be. [counts]
     [[nodiscard]] double tolerance_counts(std::size_t i) const noexcept {
         return slots_[i].wiring.standstill_counts + rounding_counts(slots_[i].wiring, period_us_);

@@ -134,6 +134,12 @@ int SetpointPort::room() const noexcept {
     return static_cast<int>(std::min<std::uint64_t>(room, motion_->trajectory.room()));
 }
 
+// The clock is looked at a period ahead, and the caller may be late by a poll or two.
+std::uint64_t SetpointPort::least_ahead_us() const noexcept {
+    constexpr std::uint64_t late_us = 20'000;
+    return settings_.reserve_us + group_.ahead_us() + period_us() + late_us;
+}
+
 bool SetpointPort::submit(const FeedSegment& segment) noexcept {
     if (!accepts_segments()) {
         return false;
@@ -230,7 +236,8 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
         awaited_ = drive.value_or(awaited_);
         arrived_since_us_ = drive ? 0 : arrived_since_us_ == 0 ? now_us : arrived_since_us_;
     }
-    fact(Event::arrived) = arrived_since_us_ != 0 && now_us > arrived_since_us_ + settle_us;
+    fact(Event::arrived) = arrived_since_us_ != 0 && now_us > arrived_since_us_ + settle_us &&
+                           group_.heard_since(arrived_since_us_ + settle_us); // where they stand is known
     return out;
 }
 

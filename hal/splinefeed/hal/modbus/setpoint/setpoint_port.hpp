@@ -28,6 +28,12 @@ public:
     /// Whether the drive says that it has its reference: then its counts are those of the machine's axis. Before
     /// prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return group_.placed(drive); }
+    /// Where the drive stands by what its counts meant in the motion before, in counts of the machine's axis; empty:
+    /// there was none, or it may have been off since. Between open() and prepare().
+    [[nodiscard]] std::optional<double> kept_counts(std::size_t drive) const noexcept {
+        return group_.keeps_place(drive) ? std::optional(group_.frame(drive).axis_counts(reading(drive).position_q16))
+                                         : std::nullopt;
+    }
     /// Enables all drives and maps their positions to the start of the first segment. If something is wrong all drives
     /// were stopped by then: a drive that was homing by a quick stop, the others by a hold. Or it is known that they
     /// did not confirm it: stop_report().
@@ -35,6 +41,8 @@ public:
     /// As prepare(), but positions keep their meaning.
     [[nodiscard]] PortFailure renew(const FeedSegment& first) override;
     [[nodiscard]] int room() const noexcept override;
+    /// With less motion than this, of which the end is not declared, all drives slow down. [us]
+    [[nodiscard]] std::uint64_t least_ahead_us() const noexcept;
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept override;
     void complete() noexcept override;
     PortState poll() noexcept override;
@@ -63,11 +71,13 @@ public:
     [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept { return group_.drive(drive).counts(); }
     /// prepare() succeeded: positions of the drives are those of the machine.
     [[nodiscard]] bool referenced() const noexcept { return referenced_; }
-    /// Reported position of a drive, in counts of the machine's axis; empty: it is not known which position of the axis
-    /// that is, since prepare() has not come so far. After prepare().
+    /// Reported position of a drive, in counts of the machine's axis. Empty: it is not known which position of the axis
+    /// that is. prepare() has not come so far, or the drive was off since. After prepare().
     [[nodiscard]] std::optional<double> position_counts(std::size_t drive) const noexcept {
         const AxisFrame& frame = group_.frame(drive);
-        return frame.aligned() ? std::optional(frame.axis_counts(report(drive).reading.position_q16)) : std::nullopt;
+        const SetpointReport last = report(drive);
+        return frame.aligned() && !last.lost ? std::optional(frame.axis_counts(last.reading.position_q16))
+                                             : std::nullopt;
     }
     /// Whether the drive has answered recently.
     [[nodiscard]] bool online(std::size_t drive) const noexcept { return group_.online(drive); }
