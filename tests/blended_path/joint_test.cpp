@@ -171,3 +171,51 @@ TEMPLATE_TEST_CASE("how sharp a blend may be depends on the turn", "[blended_pat
         CHECK(path.counts().joints.blended == c.blends);
     }
 }
+
+TEMPLATE_TEST_CASE("parts of one curve meet in no joint, and what bends there is one", "[blended_path]", double,
+                   Fixed) {
+    using S = TestType;
+    // A cubic that is divided in the middle; the second part begins in another direction, or with another curvature.
+    const auto parts = [](Real size, Real turn, Real bend) {
+        const Real x[] = {0.0L, 0.3L * size, 0.7L * size, size};
+        const Real y[] = {0.0L, 0.1L * size, 0.4L * size, 0.3L * size};
+        const auto half = [](const Real(&p)[4], int from) {
+            const Real a = (p[0] + p[1]) / 2.0L;
+            const Real b = (p[1] + p[2]) / 2.0L;
+            const Real c = (p[2] + p[3]) / 2.0L;
+            const Real d = (a + b) / 2.0L;
+            const Real e = (b + c) / 2.0L;
+            return from == 0 ? std::array<Real, 4>{p[0], a, d, (d + e) / 2.0L}
+                             : std::array<Real, 4>{(d + e) / 2.0L, e, c, p[3]};
+        };
+        MoveProgram program;
+        program.axes = 2;
+        for (const int from : {0, 1}) {
+            const auto px = half(x, from);
+            auto py = half(y, from);
+            if (from == 1) {
+                const Real leg = px[1] - px[0];
+                py[1] += turn * leg;
+                py[2] += 2.0L * turn * leg + bend * leg * leg * 1.5L; // the curvature is 2/3 of that over leg^2, about
+            }
+            std::vector<PlaceMm> offsets;
+            for (std::size_t i = 1; i < 4; ++i) {
+                offsets.push_back({px[i] - px[0], py[i] - py[0]});
+            }
+            program.bezier(offsets).tolerance_mm = 0.01;
+        }
+        return program;
+    };
+    const auto kind = [](const MoveProgram& program) {
+        const auto moves = moves_of<S>(program);
+        JointTolerances<S> tolerances{from_double<S>(0.01 * 4096.0), from_double<S>(0.001 * 4096.0), {}, true};
+        tolerances.smooth = {from_double<S>(1e-8), S{}};
+        return decide_joint<S>(moves[0], moves[1], PathMode::continuous, tolerances, 2).kind;
+    };
+    for (const Real size : {0.05L, 1.0L, 30.0L, 500.0L}) {
+        CAPTURE(static_cast<double>(size));
+        CHECK(kind(parts(size, 0.0L, 0.0L)) == JointKind::through);
+        CHECK(kind(parts(size, 1e-6L, 0.0L)) == JointKind::blend);
+        CHECK(kind(parts(size, 0.0L, 1e-3L / size)) == JointKind::blend);
+    }
+}

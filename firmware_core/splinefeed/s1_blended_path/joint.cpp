@@ -24,12 +24,8 @@ constexpr double curvature_share = 0.011;
 constexpr double bent_share = 0.88; // of the way where a bent move may turn as the corner does
 constexpr int measured_places = 11;
 constexpr double measured_share = 0.97; // of the tolerance: the distance is that of a parabola through three places
-constexpr int shortenings = 4;
-
-template <Scalar S>
-constexpr S no_jump = literal<S>(4e-7);
-template <>
-constexpr float no_jump<float> = 1e-6F;
+constexpr int shortenings = 6;
+constexpr double far_off = 1.0 / 16.0; // of the tolerance: the way is made shorter by all of it
 
 template <Scalar S>
 S distance_between(const PerAxis<S>& a, const PerAxis<S>& b, int axes) noexcept {
@@ -134,8 +130,9 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
         joint.tolerance = smaller(joint.tolerance, literal<S>(0.01 * 4096.0));
     }
     const S bend = distance_between(in.bend, out.bend, axes);
-    const bool bends = !lines && bend > S{} && (tolerances.curvature || !exact);
-    if (!(joint.tolerance > S{}) || (jump < no_jump<S> && !bends)) {
+    const S rounding = in.bend_error + out.bend_error;
+    const bool bends = !lines && bend > tolerances.smooth.bend_1_mm + rounding && (tolerances.curvature || !exact);
+    if (!(joint.tolerance > S{}) || (!(jump > tolerances.smooth.jump) && !bends)) {
         joint.kind = JointKind::through;
         return joint;
     }
@@ -181,7 +178,9 @@ bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<
         if (deviation <= most) {
             return true;
         }
-        const S less = literal<S>(0.95) * most / deviation;
+        // Where only the curvature jumps the deviation grows with the square of the way at least.
+        const S ratio = literal<S>(0.95) * most / deviation;
+        const S less = tangent && ratio > literal<S>(far_off) ? square_root(ratio) : ratio;
         way = way * less;
         aim = aim * less;
     }

@@ -29,6 +29,7 @@ struct JointTolerances {
     S exact{};                   ///< of an exact path, where it turns by less than a degree
     SharpestBlend<S> sharpest{}; ///< its curvature in units of 2^-20 per chord unit
     bool curvature = true;       ///< an exact path is rounded where only its curvature jumps, too
+    SmoothJoint<S> smooth{};     ///< its curvature likewise
 };
 
 /// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint is a stop at a

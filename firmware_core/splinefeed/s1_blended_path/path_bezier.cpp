@@ -11,6 +11,11 @@ namespace {
 constexpr int starts_log2 = 2; // four and one more, from the end to the middle
 constexpr int starts = 1 << starts_log2;
 constexpr int nearings = 3; // Newton's steps towards the nearest place
+// Of the second derivative over the first one, as a part of itself and of 1: four roundings.
+template <Scalar S>
+constexpr int bend_digits = std::same_as<S, float>    ? 22
+                            : std::same_as<S, double> ? 50
+                                                      : 30;
 
 } // namespace
 
@@ -87,6 +92,8 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
     for (const unsigned k : indices(axes_)) {
         out.bend[k] = scale2(second[k] - along * out.tangent[k], bend_log2) / speed;
     }
+    const S size = from_integer<S>(1) + norm(second, axes_);
+    out.bend_error = scale2(size, bend_log2 - bend_digits<S>) / speed;
 }
 
 template <Scalar S>

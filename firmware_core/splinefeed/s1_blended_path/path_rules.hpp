@@ -17,6 +17,13 @@ struct SharpestBlend {
     S half_sine{};
 };
 
+/// Joints that a plan passes at any speed: nothing is rounded there.
+template <Scalar S>
+struct SmoothJoint {
+    S jump = literal<S>(std::same_as<S, float> ? 1e-6 : 4e-7); ///< of the unit tangent, at most
+    S bend_1_mm{};                                             ///< of the curvature, at most
+};
+
 /// path_rules() makes them of a machine's numbers.
 template <Scalar S>
 struct PathRules {
@@ -26,6 +33,7 @@ struct PathRules {
     bool rounds_curvature = true; ///< false: joints where only the curvature jumps stay
     int chain_quarters = 4; ///< quarters of a move's tolerance that chains of short lines get, where the program does
                             ///< not say it
+    SmoothJoint<S> smooth{};
     PerAxis<bool> rotary{}; ///< axes that the feed does not count where others move
 };
 
@@ -33,11 +41,14 @@ struct PathRules {
 template <Scalar S>
 [[nodiscard]] constexpr PathRules<S> rules_cast(const PathRules<double>& rules) noexcept {
     const SharpestBlend<double>& sharpest = rules.sharpest;
+    const SmoothJoint<double>& smooth = rules.smooth;
     return {
         from_double<S>(rules.joint_tolerance_mm),
         {from_double<S>(sharpest.curvature_1_mm), from_double<S>(sharpest.fading), from_double<S>(sharpest.half_sine)},
         rules.rounds_curvature,
         rules.chain_quarters,
+        {larger(from_double<S>(smooth.jump), std::same_as<S, float> ? SmoothJoint<S>{}.jump : S{}),
+         from_double<S>(smooth.bend_1_mm)},
         rules.rotary};
 }
 

@@ -14,6 +14,7 @@ struct PathState {
     PerAxis<S> offset{};  ///< from a point that the context names, in chord units
     PerAxis<S> tangent{}; ///< unit vector
     PerAxis<S> bend{};    ///< curvature vector, see bend_log2
+    S bend_error{};       ///< what rounding may have done to it
 };
 
 /// The Bezier points of the quintic that leaves `from` and arrives at `to` with their directions and curvatures. The

@@ -4,7 +4,7 @@
 
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s1_blended_path/path_rules.hpp"
-#include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace splinefeed {
 
@@ -48,6 +48,21 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
     return {acceleration / (slow * slow), 1.6, 0.0};
 }
 
+/// Half of the jumps of direction and curvature that the limits tolerate at a joint at any speed (Refinement and
+/// JerkWindow); the other half is rounding's.
+[[nodiscard]] constexpr SmoothJoint<double> smooth_joint(const MachineSettings& machine) noexcept {
+    const AxisTotals totals = axis_totals(machine);
+    const double period_s = machine.sample_period_us * 1e-6;
+    const int n = machine.segments_per_sample > 0 ? machine.segments_per_sample
+                                                  : detail::segments_per_sample(period_s, totals.acceleration_sq);
+    const double segment_s = period_s / n;
+    const double speed = larger(machine.max_feed_mm_s, 1e-3);
+    SmoothJoint<double> out;
+    out.jump = smaller(out.jump, 0.5 * detail::corner_share * totals.softest * segment_s / speed + 1e-9);
+    out.bend_1_mm = 0.5 * detail::jerk_reserve * totals.smoothest * segment_s / (0.75 * speed * speed);
+    return out;
+}
+
 /// What a TolerancePath has to know of a machine. Only with a jerk limit do jumps of the curvature cost time. Without
 /// one the joint tolerance is 0.625 of what is asked for: the samples leave the path by up to 0.35 um besides. So with
 /// the usual micrometre the motion, too, keeps it. And chains of short lines get three quarters of a tolerance, because
@@ -57,7 +72,7 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
                                                      double joint_tolerance_mm = 0.001) noexcept {
     const bool jerk_limited = axis_totals(machine).smoothest > 0.0;
     PathRules<double> rules{jerk_limited ? joint_tolerance_mm : 0.625 * joint_tolerance_mm, sharpest_blend(machine),
-                            jerk_limited, jerk_limited ? 4 : 3};
+                            jerk_limited, jerk_limited ? 4 : 3, smooth_joint(machine)};
     for (const unsigned k : indices(machine.axes)) {
         rules.rotary[k] = machine.axis[k].rotary;
     }
