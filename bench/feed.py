@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Cycle times with limited jerk, planned in double and in float, as the tables of docs/explanation/feed.md: of a curve, of random splines, or of splines through unevenly
 spaced points, against the least time
-that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
+that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy). Also times of known motions and straight moves over
+the known ones, and pairs of which the second may not be slower."""
 import argparse
 import json
 import math
@@ -12,10 +13,16 @@ import random
 import subprocess
 import sys
 import tempfile
+from statistics import median
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "judge"))
 
 from judge import judged_files  # noqa: E402
+from known_motions import FORMS, KnownMotion  # noqa: E402
+from monotone_pairs import monotone_pair  # noqa: E402
+from planning import Refused  # noqa: E402
+from straight_moves import StraightMove  # noqa: E402
+from time_gates import known_ratios, straight_ratio  # noqa: E402
 from uneven_path import write_uneven_path  # noqa: E402
 
 CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
@@ -77,7 +84,13 @@ def random_limits(numbers):
     return feed, [(feed * share(0.4), acceleration * share(0.3), jerk * share(0.3)) for _ in "xyz"]
 
 
-def random_table(tool, count, folder):
+def unequal_limits(numbers):
+    """The same ranges, with axes whose limits have ratios of up to 30."""
+    feed, limits = random_limits(numbers)
+    return feed, [tuple(limit * 10 ** numbers.uniform(-math.log10(30), 0) for limit in of_axis) for of_axis in limits]
+
+
+def random_table(tool, count, folder, limits_of=random_limits):
     ratios = {scalar: [] for scalar in SCALARS}
     print("| spline | least | double | float | A / J of the first axis | jerk use in double |\n|---|---|---|---|---|---|")
     for seed in range(1, count + 1):
@@ -85,7 +98,7 @@ def random_table(tool, count, folder):
         program = folder / "points.csv"
         rows = ["{:.5f},{:.5f},{:.5f}\n".format(*point) for point in random_points(numbers)]
         program.write_text("x,y,z\n" + "".join(rows))
-        feed, limits = random_limits(numbers)
+        feed, limits = limits_of(numbers)
         least, use = 0.0, 0.0
         for scalar in SCALARS:
             wanted = [] if least else files(folder)
@@ -145,6 +158,61 @@ def monotone_table(tool, count, folder):
     print(f"{sum(row[0] > 1.003 for row in worst)} of {len(worst)} are longer by more than 0.3 %")
 
 
+def known_table(tool, seeds, folder):
+    """Motions whose time is known: the tool's over it, and without what sampling costs."""
+    ratios = {form: [] for form in FORMS}
+    print("| motion | axes | known | " + " | ".join(FORMS) + " |\n|---|---|---|" + "---|" * len(FORMS))
+    for seed in seeds:
+        motion = KnownMotion(seed)
+        cells = []
+        for form, row in known_ratios(tool, motion, folder).items():
+            if row[0] is None:
+                print(row[2])
+            else:
+                ratios[form].append(row)
+                cells.append("{:.4f} ({:.4f})".format(*row))
+        print("| {} | {} | {:.4f} s | {} |".format(seed, len(motion.limits), motion.seconds, " | ".join(cells)), flush=True)
+    for form, rows in ratios.items():
+        if rows:
+            print(f"{form}: {len(rows)} motions, median {median(row[0] for row in rows):.4f}, largest {max(row[0] for row in rows):.4f}; "
+                  f"without sampling {median(row[1] for row in rows):.4f}, {max(row[1] for row in rows):.4f}")
+
+
+def straight_table(tool, seeds, folder):
+    """Straight moves: the time over that of seven phases, and over what is allowed (time_gates.py)."""
+    ratios = []
+    print("| move | axes | seven phases | period | options | over seven phases | over what is allowed |\n|---|---|---|---|---|---|---|")
+    for seed in seeds:
+        move = StraightMove(seed)
+        case = move.case(folder)
+        try:
+            ratios.append(straight_ratio(tool, move, case))
+        except Refused as refused:
+            print(f"{case}: {refused}")
+            continue
+        print("| {} | {} of {} | {:.4f} s | {} us | {} | {:.4f} | {:.4f} |".format(
+            seed, sum(x != 0.0 for x in move.end), len(move.end), move.seconds, move.setting.period_us, " ".join(move.setting.options), *ratios[-1]), flush=True)
+    print(f"median {median(row[0] for row in ratios):.4f}, largest {max(row[0] for row in ratios):.4f}; {sum(row[1] > 1.0 for row in ratios)} of "
+          f"{len(ratios)} take longer than is allowed")
+
+
+def pairs_table(tool, seeds, folder):
+    """Pairs of which the second may not be slower: a higher limit, a larger window, a shorter period, more points on a line."""
+    slower = 0
+    print("| pair | what is changed | first | second | ratio |\n|---|---|---|---|---|")
+    for seed in seeds:
+        pair = monotone_pair(seed, folder)
+        try:
+            first, second, allowed = pair.seconds(tool)
+        except Refused as refused:
+            print(f"{pair.first} -> {pair.second}: {refused}")
+            continue
+        slower += second > allowed
+        print("| {} | {} | {:.4f} s | {:.4f} s | {:.4f}{} |".format(
+            seed, pair.says, first, second, second / first, ", slower" if second > allowed else ""), flush=True)
+    print(f"{slower} of {len(seeds)} are slower")
+
+
 def print_ratios(ratios, count):
     for scalar in SCALARS:
         ordered = sorted(ratios[scalar])
@@ -157,21 +225,34 @@ def main():
     parser.add_argument("--tool", type=os.path.abspath, default="build/release/bin/splinefeed")
     parser.add_argument("--curve", help="a curve .json in two dimensions")
     parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
+    parser.add_argument("--unequal", type=int, default=0, metavar="COUNT", help="the same on machines whose axes differ by up to 30 times")
     parser.add_argument("--monotone", type=int, default=0, metavar="COUNT", help="so many random limits and one of them raised")
     parser.add_argument("--uneven", type=int, default=0, metavar="COUNT", help="so many splines through points 0.02 to 20 mm apart")
+    parser.add_argument("--known", type=int, default=0, metavar="COUNT", help="so many random motions whose time is known, as curves, elements and G5")
+    parser.add_argument("--straight", type=int, default=0, metavar="COUNT", help="so many straight moves of random machines")
+    parser.add_argument("--pairs", type=int, default=0, metavar="COUNT", help="so many pairs of which the second may not be slower")
+    parser.add_argument("--seed", type=int, default=1, help="the first of --known, --straight and --pairs (default 1)")
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="programs and machine files stay there")
     arguments = parser.parse_args()
-    if not arguments.curve and arguments.random <= 0 and arguments.uneven <= 0 and arguments.monotone <= 0:
-        parser.error("what is to be run? --curve FILE, --random COUNT, --uneven COUNT or --monotone COUNT")
+    counts = (arguments.random, arguments.unequal, arguments.uneven, arguments.monotone, arguments.known, arguments.straight, arguments.pairs)
+    if not arguments.curve and max(counts) <= 0:
+        parser.error("what is to be run? --curve FILE, or a COUNT for --random, --unequal, --uneven, --monotone, --known, --straight or --pairs")
     with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+        folder = arguments.keep or pathlib.Path(name)
+        folder.mkdir(parents=True, exist_ok=True)
         if arguments.curve:
             curve_table(arguments.tool, arguments.curve, folder)
         if arguments.random:
             random_table(arguments.tool, arguments.random, folder)
+        if arguments.unequal:
+            random_table(arguments.tool, arguments.unequal, folder, unequal_limits)
         if arguments.uneven:
             uneven_table(arguments.tool, arguments.uneven, folder)
         if arguments.monotone:
             monotone_table(arguments.tool, arguments.monotone, folder)
+        for table, count in ((known_table, arguments.known), (straight_table, arguments.straight), (pairs_table, arguments.pairs)):
+            if count:
+                table(arguments.tool, range(arguments.seed, arguments.seed + count), folder)
 
 
 if __name__ == "__main__":

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Runs a program in the simulated machine and holds it against what README.md claims, judged by judge.py.
 
-    gates.py TOOL PROGRAM            PROGRAM: a path in examples/, or `uneven`: points 0.02 to 20 mm apart
+    gates.py TOOL PROGRAM            PROGRAM: a path in examples/, or `uneven`: points 0.02 to 20 mm apart;
+                                     or `known`, `straight`, `monotone`: plans held against known times and each other (time_gates.py)
 
-With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md has figures of."""
+With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md has figures of. --keep FOLDER: programs and machine
+files stay there."""
 import argparse
+import contextlib
 import os
 import subprocess
 import sys
@@ -15,6 +18,7 @@ from pathlib import Path
 import needed  # noqa: F401
 from judge import INTERVALS, judged_files, largest
 from machine_text import machine_text
+from time_gates import TIME_GATES
 from uneven_path import write_uneven_path
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -68,23 +72,31 @@ def problems(tool, program, axes, limits, folder):
     return [f"{name}: {value:.9g}, not at most {gate:.9g} ({kind})" for name, value, gate in gates if not value <= gate]
 
 
+def problems_of_program(tool, name, folder):
+    long = os.environ.get("SPLINEFEED_LONG") == "1"
+    if long:
+        INTERVALS.update({kind: 3 * count for kind, count in INTERVALS.items()})
+    axes, cases, more = MACHINES.get(name, OTHERS)
+    program = str(EXAMPLES / name)
+    if name == "uneven":
+        program = os.path.join(folder, "uneven.csv")
+        write_uneven_path(program, UNEVEN_SEED)
+    return [problem for limits in cases + (more if long else []) for problem in problems(tool, program, axes, limits, folder)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tool", type=os.path.abspath)
     parser.add_argument("program")
+    parser.add_argument("--keep", type=os.path.abspath, metavar="FOLDER")
     options = parser.parse_args()
-    long = os.environ.get("SPLINEFEED_LONG") == "1"
-    if long:
-        INTERVALS.update({kind: 3 * count for kind, count in INTERVALS.items()})
-    axes, cases, more = MACHINES.get(options.program, OTHERS)
-    failed = []
-    with tempfile.TemporaryDirectory(prefix="splinefeed-gates-") as folder:
-        program = str(EXAMPLES / options.program)
-        if options.program == "uneven":
-            program = os.path.join(folder, "uneven.csv")
-            write_uneven_path(program, UNEVEN_SEED)
-        for limits in cases + (more if long else []):
-            failed += problems(options.tool, program, axes, limits, folder)
+    with contextlib.ExitStack() as stack:
+        folder = options.keep or stack.enter_context(tempfile.TemporaryDirectory(prefix="splinefeed-gates-"))
+        os.makedirs(folder, exist_ok=True)
+        if options.program in TIME_GATES:
+            failed = TIME_GATES[options.program](options.tool, Path(folder))
+        else:
+            failed = problems_of_program(options.tool, options.program, folder)
     for problem in failed:
         print("FALLS SHORT:", problem)
     return 1 if failed else 0
