@@ -163,8 +163,10 @@ void write_help(Lines out, const Summary& summary) {
         fmt::format_to(out, "{:<22}{:>14.6f} s  {:.1f} % less\n", "  " + all[i].limit, all[i].cycle_time_s,
                        100.0 * all[i].gain);
     }
-    if (const auto& setting = all.front().setting; !setting.empty()) {
-        fmt::format_to(out, "  to try the first: --set {}\n", setting);
+    if (const RaisedLimit& first = all.front(); first.window > 0) {
+        fmt::format_to(out, "  to try the first: --window {}\n", first.window);
+    } else if (!first.setting.empty()) {
+        fmt::format_to(out, "  to try the first: --set {}\n", first.setting);
     }
 }
 

@@ -33,10 +33,11 @@ struct ToleranceSummary {
     double exact_stop_s = 0.0;
 };
 
-/// A limit that was raised by a tenth, alone.
+/// A limit that was raised by a tenth, alone, or a window that is longer.
 struct RaisedLimit {
     std::string limit;         ///< for people
     std::string setting;       ///< of --set, to try it; empty: it is no number of the machine
+    std::uint64_t window = 0;  ///< of --window; 0: it is a limit
     double cycle_time_s = 0.0; ///< then
     double gain = 0.0;         ///< part of the cycle time that is saved
 };

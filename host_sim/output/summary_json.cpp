@@ -54,8 +54,9 @@ constexpr WrittenKey<Sum> share_keys[] = {
 using Raised = RaisedLimit;
 constexpr WrittenKey<Raised> help_keys[] = {
     text<&Raised::limit>("limit", "Its name."),
-    or_null(text<&Raised::setting>("set", "That limit for --set; null: it is a feed of the program.")),
-    quantity<&Raised::cycle_time_s>("cycle_time_s", "s", "If it alone were 10 % higher."),
+    or_null(text<&Raised::setting>("set", "That limit for --set; null: it is a feed of the program, or the window.")),
+    if_any(count<&Raised::window>("window", "It is the planning window: that for --window.")),
+    quantity<&Raised::cycle_time_s>("cycle_time_s", "s", "If it alone were 10 % higher, or the window so long."),
     quantity<&Raised::gain>("gain", "", "That part of the cycle time."),
 };
 

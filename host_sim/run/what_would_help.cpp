@@ -15,6 +15,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double raised = 1.1;
+constexpr std::size_t longer_window = 4;
 constexpr std::uint64_t most_moves = 10'000; // of a program that are planned again
 constexpr double may_bind = 0.85;            // of a limit: a plan that stays a little below it is bound by it
 
@@ -94,7 +95,8 @@ public:
 };
 
 /// The motion alone, on a machine whose limits differ.
-double planned_s(const HelpArguments& arguments, const RunMachine& machine, double feed_factor, std::uint64_t moves) {
+double planned_s(const HelpArguments& arguments, const RunMachine& machine, double feed_factor, std::uint64_t moves,
+                 const PlannerChoice& planner) {
     PathArguments in_double = *arguments.path;
     in_double.scalar = ScalarKind::float64; // the fastest one: the time is the same within a segment
     PathInput input(in_double, PathUse::executed, machine.path());
@@ -102,7 +104,7 @@ double planned_s(const HelpArguments& arguments, const RunMachine& machine, doub
     input.end_after(moves);
     Progress progress({.quiet = arguments.quiet, .all = arguments.waypoints});
     NoWatch nobody;
-    const auto path = plan_path(input, machine.machine, nobody, arguments.planner);
+    const auto path = plan_path(input, machine.machine, nobody, planner);
     PathFeeder& feeder = path->feeder();
     path->override_feed(feed_factor);
     std::uint64_t ticks = 0;
@@ -137,7 +139,11 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
     LimitAdvice out;
     out.moves = arguments.path->format->is_gcode() && summary.waypoints > most_moves ? most_moves : 0;
     const double moving_s = summary.cycle_time_s - arguments.standing_s;
-    const double part_s = out.moves > 0 ? planned_s(arguments, of, 1.0, out.moves) : moving_s;
+    const double part_s = out.moves > 0 ? planned_s(arguments, of, 1.0, out.moves, arguments.planner) : moving_s;
+    const auto add = [&](const std::string& name, const std::string& setting, std::uint64_t window, double planned) {
+        const double seconds = moving_s * (planned / part_s) + arguments.standing_s; // the rest as the part
+        out.limits.push_back({name, setting, window, seconds, 1.0 - seconds / summary.cycle_time_s});
+    };
     for (const Candidate& candidate : candidates(of.machine, summary)) {
         MachineDescription machine = of.as_stated();
         if (candidate.of_machine != nullptr) {
@@ -151,9 +157,14 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
         const std::string setting = setting_of(candidate, machine);
         const RunMachine higher(std::move(machine), arguments.path->format->is_gcode());
         const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
-        const double share = planned_s(arguments, higher, factor, out.moves) / part_s; // of the rest as of the part
-        const double seconds = moving_s * share + arguments.standing_s;
-        out.limits.push_back({candidate.name, setting, seconds, 1.0 - seconds / summary.cycle_time_s});
+        add(candidate.name, setting, 0, planned_s(arguments, higher, factor, out.moves, arguments.planner));
+    }
+    // A plan with a jerk limit does not know whether its window was too short for the path.
+    if (summary.window_limited.value_or(1) > 0) {
+        PlannerChoice longer = arguments.planner;
+        longer.window_cells *= longer_window;
+        const double seconds = planned_s(arguments, of, 1.0, out.moves, longer);
+        add(fmt::format("window of {} cells", longer.window_cells), {}, longer.window_cells, seconds);
     }
     std::ranges::stable_sort(out.limits, [](const auto& a, const auto& b) { return a.gain > b.gain; });
     return out;

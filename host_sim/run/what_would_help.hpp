@@ -20,7 +20,8 @@ struct HelpArguments {
     bool quiet = false;
 };
 
-/// Raises each limit that bound by a tenth, one at a time, and plans the program again, in double. The largest gain
+/// Raises each limit that bound by a tenth, one at a time, and plans the program again, in double; and with a window of
+/// four times as many cells, where it may have been too short. The largest gain
 /// first. Costs as much as so many plans; of a program in G-code its first 10,000 moves stand for all. Progress is
 /// shown. Throws InputError and UsageError.
 /// @pre the input can be read again, and the run was neither stopped nor steered

@@ -54,8 +54,9 @@ void shared_limits(Summary& summary) {
 }
 
 void what_would_help(Summary& summary) {
-    summary.what_would_help = LimitAdvice{
-        {{"jerk of x", "axis.x.max_jerk_mm_s3=33000", 12.0, 0.028}, {"programmed feed", {}, 12.34, 0.0001}}};
+    summary.what_would_help = LimitAdvice{{{"window of 4096 cells", {}, 4096, 11.9, 0.036},
+                                           {"jerk of x", "axis.x.max_jerk_mm_s3=33000", 0, 12.0, 0.028},
+                                           {"programmed feed", {}, 0, 12.34, 0.0001}}};
 }
 
 void with_a_program(Summary& summary) {
