@@ -23,9 +23,10 @@ public:
 
 private:
     using typename Planner<S>::Stages;
+    using X = JerkSampled<S, R>;
 
     [[nodiscard]] Status fits(const MotionLimits<S>& limits) const noexcept override {
-        if (!limits.jerk_limited) {
+        if (!limits.jerk_limited || (limits.sampled == SampledIn::float64 && !std::same_as<X, double>)) {
             return Error::planner_unsuited;
         }
         if (storage_.cells.size() < JerkPlan<S, R>::smallest_window) {
@@ -40,7 +41,7 @@ private:
 
     JerkStorage<S, R> storage_;
     Slot<JerkPlan<S, R>> plan_;
-    Slot<ProfileSampler<S>> sampler_;
+    Slot<ProfileSampler<S, X>> sampler_;
 };
 
 } // namespace splinefeed

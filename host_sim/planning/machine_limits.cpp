@@ -26,18 +26,19 @@ constexpr std::array axis_limits{
 
 /// The one value that is too small for the sample period: with a large one in its place, all goes together.
 template <Scalar S>
-std::string lost_in_rounding(const MachineDescription& machine) {
+std::string lost_in_rounding(const MachineDescription& machine, SampledIn sampled) {
     for (const unsigned k : indices(machine.settings.axes)) {
         for (const AxisLimit& limit : axis_limits) {
             MachineSettings raised = machine.settings;
             double& value = raised.axis[k].*limit.value;
             const double given = value;
             value = limit.largest;
-            if (given > 0.0 && MotionLimits<S>::make(raised).has_value()) {
-                return fmt::format("axis {}: {} = {} is lost in rounding, with a sample_period_us of {}; raise one of "
-                                   "them{}",
-                                   machine.axis_name[k], limit.key, given, machine.settings.sample_period_us,
-                                   std::same_as<S, double> ? "" : ", or give --scalar double");
+            if (given > 0.0 && MotionLimits<S>::make(raised, sampled).has_value()) {
+                return fmt::format(
+                    "axis {}: {} = {} is lost in rounding, with a sample_period_us of {}; raise one of "
+                    "them{}",
+                    machine.axis_name[k], limit.key, given, machine.settings.sample_period_us,
+                    MotionLimits<double>::make(machine.settings).has_value() ? ", or give --scalar double" : "");
             }
         }
     }
@@ -53,11 +54,11 @@ PlanFigures figures_of(const MotionLimits<S>& limits) {
 } // namespace
 
 template <Scalar S>
-MotionLimits<S> machine_limits(const MachineDescription& machine) {
-    const auto limits = MotionLimits<S>::make(machine.settings);
+MotionLimits<S> machine_limits(const MachineDescription& machine, SampledIn sampled) {
+    const auto limits = MotionLimits<S>::make(machine.settings, sampled);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0,
-                         limits.error() == LimitError::period_too_short ? lost_in_rounding<S>(machine)
+                         limits.error() == LimitError::period_too_short ? lost_in_rounding<S>(machine, sampled)
                                                                         : describe(limits.error()));
     }
     return *limits;
@@ -72,8 +73,8 @@ PlanFigures plan_figures(ScalarKind scalar, const MachineDescription& machine) {
     return figures_of(machine_limits<double>(machine));
 }
 
-template MotionLimits<double> machine_limits(const MachineDescription&);
-template MotionLimits<float> machine_limits(const MachineDescription&);
-template MotionLimits<Fixed> machine_limits(const MachineDescription&);
+template MotionLimits<double> machine_limits(const MachineDescription&, SampledIn);
+template MotionLimits<float> machine_limits(const MachineDescription&, SampledIn);
+template MotionLimits<Fixed> machine_limits(const MachineDescription&, SampledIn);
 
 } // namespace splinefeed::host

@@ -11,7 +11,7 @@ namespace splinefeed::host {
 
 /// Throws InputError if the numbers of the file do not go together; it names the axis and the key that is to blame.
 template <Scalar S>
-[[nodiscard]] MotionLimits<S> machine_limits(const MachineDescription& machine);
+[[nodiscard]] MotionLimits<S> machine_limits(const MachineDescription& machine, SampledIn sampled = SampledIn::float64);
 
 /// What those behind a plan know of its limits.
 struct PlanFigures {

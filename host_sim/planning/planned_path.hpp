@@ -7,6 +7,7 @@
 #include "host_sim/program/path_input.hpp"
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s3_feed_plan/motion_plan.hpp"
 #include "splinefeed/s3_feed_plan/steering/steering.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -22,6 +23,10 @@ namespace splinefeed::host {
 struct PlannerChoice {
     std::size_t window_cells = 1024;              ///< look-ahead of the feed plan
     ScalarKind jerk_scalar = ScalarKind::float64; ///< number type of a JerkPlanner; not fixed
+
+    [[nodiscard]] SampledIn sampled() const noexcept {
+        return jerk_scalar == ScalarKind::float64 ? SampledIn::float64 : SampledIn::scalar;
+    }
 };
 
 /// The look-ahead of --window, 10 to 1000000 cells. Throws UsageError.

@@ -73,7 +73,8 @@ class ScalarPath final : public PlannedPath {
 public:
     /// plan_path().
     ScalarPath(PathInput& input, const MachineDescription& machine, CurveWatch& watch, const PlannerChoice& choice)
-        : limits_(machine_limits<S>(machine)), watched_(input, watch), planner_(watched_.tee, limits_, choice) {}
+        : limits_(machine_limits<S>(machine, choice.sampled())), watched_(input, watch),
+          planner_(watched_.tee, limits_, choice) {}
 
     [[nodiscard]] PathCurve<S>& curve() noexcept { return watched_.curve; }
     [[nodiscard]] Trajectory<S>& trajectory() noexcept { return planner_.trajectory(); }

@@ -136,7 +136,10 @@ void check_path(const BezierPath& path, Worst& worst, double feed = 100.0) {
     check_cells(cells, worst);
 
     std::size_t at = 0;
-    for (const CurveSegment<S>& segment : segments) {
+    for (CurveSegment<S> segment : segments) {
+        if constexpr (!std::same_as<S, float>) {
+            segment.straighten(); // the cells of a line are even parts of it
+        }
         const int axes = segment.axes;
         const Real grid = control_rounding<S>() * std::ldexp(1.0L, segment.unit_log2);
         // Halving adds at most half a rounding per step, n steps per level, 22 levels; and Horner's rule n roundings of

@@ -25,7 +25,8 @@ BEGIN {
     in_float = "INS_5FixedEfE"
     served = "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
     plan = "^_ZNK?10splinefeed8" (jerk ? "JerkPlan" in_float : "FeedPlan" of) served
-    sampler = "^_ZNK?10splinefeed14ProfileSampler" of "(4next|5clear|7at_rest)E"
+    twice = "I" (scalar == "float" ? "ff" : "NS_5FixedES[0-9A-Z]*_") "E" # it samples in the scalar, too
+    sampler = "^_ZNK?10splinefeed14ProfileSampler" twice "(4next|5clear|7at_rest)E"
     planner = "^_ZNK?10splinefeed" (jerk ? "11JerkPlanner" in_float : "19AccelerationPlanner" of) "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"

@@ -51,3 +51,34 @@ TEMPLATE_TEST_CASE("segment: the largest offset lies in [2^15, 2^16)", "[curve][
         }
     }
 }
+
+TEMPLATE_TEST_CASE("a segment on its chord becomes a line, no other does", "[curve]", double, Fixed) {
+    using S = TestType;
+    const auto made = [](const PerAxis<PerDegree<double>>& mm, int degree) {
+        CurveSegment<S> segment;
+        segment.axes = 2;
+        segment.degree = degree;
+        PerAxis<PerDegree<S>> offsets{};
+        for (unsigned k = 0; k < 2; ++k) {
+            for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
+                offsets[k][i] = from_double<S>(mm[k][i] * chord_units_per_mm);
+            }
+        }
+        segment.assign(offsets);
+        segment.straighten();
+        return segment;
+    };
+    const auto degree_of = [&](const PerAxis<PerDegree<double>>& mm) {
+        return made(mm, 3).degree;
+    };
+    const CurveSegment<S> line = made({{{0.0, 1.0, 1.5, 4.0}, {0.0, 3.0, 4.5, 12.0}}}, 3);
+    CHECK(line.degree == 1);
+    CHECK(line.control_mm(0, 1) == 4.0);
+    CHECK(line.control_mm(1, 1) == 12.0);
+    CHECK(degree_of({{{0.0, 0.0, 4.0, 4.0}, {0.0, 0.0, 0.0, 0.0}}}) == 1);  // stands at both ends
+    CHECK(degree_of({{{0.0, 2.0, 1.0, 4.0}, {0.0, 0.0, 0.0, 0.0}}}) == 3);  // to and fro
+    CHECK(degree_of({{{0.0, -1.0, 2.0, 4.0}, {0.0, 0.0, 0.0, 0.0}}}) == 3); // it begins backward
+    CHECK(degree_of({{{0.0, 1.0, 5.0, 4.0}, {0.0, 0.0, 0.0, 0.0}}}) == 3);  // beyond its end
+    CHECK(degree_of({{{0.0, 1.0, 2.0, 4.0}, {0.0, 1e-6, 0.0, 0.0}}}) == 3); // a nanometre beside it
+    CHECK(degree_of({{{0.0, 2e-3, 5e-3, 9e-3}, {0.0, 0.0, 0.0, 0.0}}}) == 3);
+}

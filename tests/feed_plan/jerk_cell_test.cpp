@@ -92,3 +92,43 @@ TEST_CASE("the limits of a move keep those of the axes, whatever the motion", "[
     CHECK(straight.move_limits(straight.cap_sq).jerk_mm_s3 == Approx(straight.limits.jerk_mm_s3[0] / steepest));
     CHECK_FALSE(Wave{{0.5, 0.5}, {3.0, 1.0}}.cell(5.0, 0.5, {1000.0, 2e4, 1e4}).straight(1e4));
 }
+
+TEST_CASE("below the line between most_sq an axis keeps its velocity all along the cell, and uses it",
+          "[feed_plan][jerk]") {
+    std::mt19937 random{72};
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    CAPTURE("seed 72");
+    long double least = 1;
+    int limited = 0;
+    for (int trial = 0; trial < 5000; ++trial) {
+        const Wave wave{{unit(random), unit(random)}, {2.0 * unit(random), 6.0 * unit(random)}};
+        JerkCell<double> cell = wave.cell(10.0 * unit(random), 0.001 + 0.2 * unit(random), {.cap_sq = 1e4});
+        cell.limits.velocity_mm_s = {20.0 + 100.0 * unit(random), 20.0 + 100.0 * unit(random)};
+        for (const unsigned k : {0U, 1U}) {
+            cell.limit_velocity(k, 0.0);
+        }
+        if (cell.most_sq[0] == JerkCell<double>::unlimited_sq) {
+            continue;
+        }
+        ++limited;
+        long double most = 0;
+        for (int i = 0; i <= 50; ++i) {
+            const long double x = i / 50.0L;
+            const long double line = wide(cell.most_sq[0]) + x * (wide(cell.most_sq[1]) - wide(cell.most_sq[0]));
+            const long double b = std::min(line, wide(cell.cap_sq));
+            REQUIRE(b > 0.0L);
+            for (const unsigned k : {0U, 1U}) {
+                const long double d0 = wide(cell.end[0][k].second) * wide(cell.length_mm);
+                const long double d1 = wide(cell.end[1][k].second) * wide(cell.length_mm);
+                const long double rise = wide(cell.end[1][k].first) - wide(cell.end[0][k].first);
+                const long double first =
+                    wide(cell.end[0][k].first) + x * (d0 + x * (3 * rise - 2 * d0 - d1 + x * (d0 + d1 - 2 * rise)));
+                most = std::max(most, std::abs(first) * std::sqrt(b) / wide(cell.limits.velocity_mm_s[k]));
+            }
+        }
+        REQUIRE(most <= 1.0L + 1e-12L);
+        least = std::min(least, most);
+    }
+    CHECK(limited > 500);
+    CHECK(least > 0.7L);
+}

@@ -15,7 +15,7 @@ namespace {
 Cell<double> cell_with_bend(double bend_per_mm) {
     Cell<double> cell;
     cell.axes = 2;
-    cell.length_mm = 0.1;
+    cell.length_mm = cell.measured_mm = 0.1;
     cell.shape[0].tangent = {1.0, 1.0};
     cell.shape[1].bend.fill(2.0 * cell.length_mm * bend_per_mm);
     return cell;

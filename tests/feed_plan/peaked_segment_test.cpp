@@ -45,7 +45,7 @@ TEMPLATE_TEST_CASE("a line is one cell, and takes the time of the trapezoid", "[
                     (std::same_as<S, float> && (length < 1.0 || acceleration < 300.0 || feed < 10.0 || feed > 100.0))) {
                     continue; // float has no digits for it
                 }
-                const double longest = to_double(MotionLimits<S>::make(machine).value().refinement.longest_mm);
+                const double longest = to_double(MotionLimits<S>::make(machine).value().refinement.longest_mm[0]);
                 const auto planned = plan_of<S>({line_shape(1, 1, {length})}, machine, 1U << 10);
                 const double least = length >= feed * feed / acceleration ? length / feed + feed / acceleration
                                                                           : 2.0 * std::sqrt(length / acceleration);
@@ -68,7 +68,7 @@ TEMPLATE_TEST_CASE("the parts of a straight cell are allowed and as fast as can 
             machine.axis[0].max_braking_mm_s2 = machine.axis[0].max_acceleration_mm_s2 * random.decades(0.3, 3.0);
         }
         const auto limits = MotionLimits<S>::make(machine).value();
-        const double length = random.decades(2e-3, std::min(10.0, 0.99 * to_double(limits.refinement.longest_mm)));
+        const double length = random.decades(2e-3, std::min(10.0, 0.99 * to_double(limits.refinement.longest_mm[0])));
         Cell<S> cell = cell_of<S>(line_shape(1, 1, {length}), limits);
         REQUIRE(has_parts(cell));
         cell.heading[0] = 1;

@@ -25,7 +25,7 @@ TEST_CASE("of a leg of any length that ends with the window, a part is final", "
         for (std::size_t i = 0; i < length; ++i) {
             Cell<double> cell;
             cell.axes = 2;
-            cell.length_mm = 0.1;
+            cell.length_mm = cell.measured_mm = 0.1;
             cell.shape[0].tangent = {1.0, 1.0};
             cell.shape[1].bend.fill(2.0 * cell.length_mm * 0.01); // q'' = 0.01 / mm
             window.append(cell, 400.0, 400.0, 400.0);

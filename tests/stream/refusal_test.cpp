@@ -75,6 +75,14 @@ TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refus
             CHECK(refusal<S>(source, limits[i], *planners[j]) == (i == j ? Error::none : Error::planner_unsuited));
         }
     }
+    // Limits for a motion that is sampled in double leave too little for the rounding of a Fixed.
+    const auto in_double = MotionLimits<S>::make(jerk_machine(), SampledIn::float64).value();
+    CHECK(refusal<S>(source, in_double, jerk_planner) == Error::planner_unsuited);
+    std::vector<JerkNode<double>> double_nodes(65);
+    std::vector<LegNode<double>> double_scratch(65);
+    JerkPlanner<S, double> double_planner(window, {cells, double_nodes, double_scratch});
+    CHECK(refusal<S>(source, in_double, double_planner) == Error::none);
+    CHECK(refusal<S>(source, limited, double_planner) == Error::none); // coarser ones suit it, too
     const MotionLimits<S> none{};
     CHECK(refusal<S>(source, none, acceleration_planner) == Error::axes_out_of_range);
 }

@@ -31,6 +31,12 @@
     SPLINEFEED_IF_DOUBLE(template class name<double>;)                                                                 \
     SPLINEFEED_IF_FLOAT(template class name<float>;) SPLINEFEED_IF_FIXED(template class name<Fixed>;)
 
+/// define(S, X) for each scalar S, with each X in which a motion of such cells is sampled.
+#define SPLINEFEED_EACH_SAMPLED(define)                                                                                \
+    SPLINEFEED_IF_DOUBLE(define(double, double))                                                                       \
+    SPLINEFEED_IF_FLOAT(define(float, float))                                                                          \
+    SPLINEFEED_IF_FIXED(define(Fixed, Fixed) SPLINEFEED_IF_DOUBLE(define(Fixed, double)))
+
 /// define(R) for each R in which the plan with a jerk limit computes: always float, on a chip the quicker one.
 #define SPLINEFEED_EACH_JERK_REAL(define) SPLINEFEED_IF_DOUBLE(define(double)) define(float)
 

@@ -254,6 +254,16 @@ template <Numeric N>
     return to_floating<double>(value);
 }
 
+/// The value as an N: itself, or a number with a floating point.
+template <Numeric N, Numeric M>
+[[nodiscard]] constexpr N converted(M value) noexcept {
+    if constexpr (std::same_as<N, M>) {
+        return value;
+    } else {
+        return to_floating<N>(value);
+    }
+}
+
 /// The number of N nearest to a constant, computed by the compiler: `literal<S>(0.25)`.
 template <Numeric N>
 [[nodiscard]] consteval N literal(double value) noexcept {

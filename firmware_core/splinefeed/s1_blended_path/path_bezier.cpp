@@ -92,8 +92,11 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
     for (const unsigned k : indices(axes_)) {
         out.bend[k] = scale2(second[k] - along * out.tangent[k], bend_log2) / speed;
     }
+    // Beside that the ends of a move are positions, in 2^-40 mm.
     const S size = from_integer<S>(1) + norm(second, axes_);
-    out.bend_error = scale2(size, bend_log2 - bend_digits<S>) / speed;
+    const S of_ends =
+        scale2(from_integer<S>(degree_ * degree_), bend_log2 - Position::fraction_bits - chord_unit_log2) / speed;
+    out.bend_error = (scale2(size, bend_log2 - bend_digits<S>) + of_ends) / speed;
 }
 
 template <Scalar S>

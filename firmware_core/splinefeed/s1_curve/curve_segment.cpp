@@ -3,8 +3,15 @@
 
 #include "splinefeed/number/exponent.hpp"
 #include "splinefeed/number/instantiate.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
+
+namespace {
+
+constexpr double shortest_line_mm = 0.01; // a shorter one is not passed faster
+
+} // namespace
 
 template <Scalar S>
 void CurveSegment<S>::assign(const PerAxis<PerDegree<S>>& offsets) noexcept {
@@ -23,6 +30,43 @@ void CurveSegment<S>::assign(const PerAxis<PerDegree<S>>& offsets) noexcept {
             control[k][i] = scale2(offsets[k][i], up);
         }
     }
+}
+
+template <Scalar S>
+void CurveSegment<S>::straighten() noexcept {
+    const auto n = static_cast<unsigned>(degree);
+    PerAxis<S> direction{};
+    for (const unsigned k : indices(axes)) {
+        direction[k] = control[k][n] - control[k][0];
+    }
+    const S length = norm(direction, axes);
+    if (degree < 2 || !(scale2(length, unit_log2) > literal<S>(shortest_line_mm))) {
+        return;
+    }
+    for (const unsigned k : indices(axes)) {
+        direction[k] = direction[k] / length;
+    }
+    S before{};
+    for (unsigned i = 1; i < n; ++i) {
+        PerAxis<S> from_start{};
+        for (const unsigned k : indices(axes)) {
+            from_start[k] = control[k][i] - control[k][0];
+        }
+        const S along = dot(from_start, direction, axes);
+        for (const unsigned k : indices(axes)) {
+            if (absolute(from_start[k] - along * direction[k]) > negligible_units<S>) {
+                return;
+            }
+        }
+        if (along < before || along > length) {
+            return;
+        }
+        before = along;
+    }
+    for (const unsigned k : indices(axes)) {
+        control[k][1] = control[k][n];
+    }
+    degree = 1;
 }
 
 #define SPLINEFEED_INSTANTIATE(S) template struct CurveSegment<S>;

@@ -50,6 +50,10 @@ struct CurveSegment {
     /// @pre axes, degree, origin are set; |offset| < 2^30 chord units
     void assign(const PerAxis<PerDegree<S>>& offsets) noexcept;
 
+    /// A segment of 10 um or more whose points lie on its chord, in order, becomes that line: the same places, which a
+    /// plan passes without cells. Cost: a root, and a product and a sum for each coordinate.
+    void straighten() noexcept;
+
     /// Where it begins, with the rounding of its control points.
     [[nodiscard]] constexpr Position start(unsigned axis) const noexcept {
         return displaced(origin[axis], control[axis][0], unit_log2);

@@ -19,6 +19,8 @@ constexpr float finest<float> = 16.0F;
 // 3.6 grades.
 constexpr double slow_grades = 3.6;
 
+constexpr double shortest_reach = 0.01 / 5.9; // of sqrt(J / v) L over v, where J is 5.9^2 Refinement::error_mm_s3
+
 } // namespace
 
 // Within the braking distance of a stop (7.3 grades), or of a segment that is passed slowly, a cell is at most a grade
@@ -63,16 +65,20 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 // needs none of it where the plan speeds up and brakes within a cell.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
-    if (m_.length_mm > refinement_.longest_mm) {
-        return true;
+    for (const unsigned k : indices(current().axes)) {
+        if (m_.length_mm * absolute(m_.first[1][k]) > refinement_.longest_mm[k]) {
+            return true;
+        }
     }
     if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
         return true;
     }
-    if (refinement_.whole_lines && current().degree == 1) {
+    const bool from_rest_to_rest = stop_before_ && stop_after_;
+    if (current().degree == 1 && refinement_.whole_lines != WholeLines::none &&
+        (from_rest_to_rest || refinement_.whole_lines == WholeLines::all)) {
         return false;
     }
-    if (stop_before_ && stop_after_ && piece.level < 3) {
+    if (from_rest_to_rest && piece.level < 3) {
         return true;
     }
     if (m_.length_mm > grade_mm_ && (piece.at_start || piece.at_end) && piece.level < 3) {
@@ -91,6 +97,27 @@ bool ArcLength<S>::bends_too_much() const noexcept {
         const Ratio<S> uneven = absolute(bend[2][k] - bend[1][k] - (bend[1][k] - bend[0][k])) * m_.slowest;
         if (change > refinement_.curvature_change * m_.slowest + m_.noise ||
             uneven > refinement_.curvature_bend * m_.slowest + m_.noise) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether the jerk that the error e of the shape stands for, e v^3 / L^2, is too large a part of a limit, at the speed
+// at which the path could be travelled there. A piece is not cut for that below a hundredth of the way in which the
+// jerk changes that speed by itself, sqrt(v^3 / J): nothing has to change so fast.
+template <Scalar S>
+bool ArcLength<S>::errs_too_much() const noexcept {
+    S speed_sq = feed_mm_s_ * feed_mm_s_;
+    for (const unsigned k : indices(current().axes)) {
+        const S bend = lengthened<S>(PieceMeasure<S>::bound(m_.second, k));
+        speed_sq = smaller(speed_sq, quotient_or_max(refinement_.bend_mm_s2[k] * m_.length_mm, bend));
+    }
+    const S speed = square_root(speed_sq);
+    for (const unsigned k : indices(current().axes)) {
+        const S reach = square_root(quotient_or_max(refinement_.error_mm_s3[k], speed)) * m_.length_mm;
+        if (reach > literal<S>(shortest_reach) * speed &&
+            reach < square_root(lengthened<S>(m_.shape(k).error_bound)) * speed) {
             return true;
         }
     }
@@ -126,7 +153,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return Verdict::coarse;
     }
     m_.measure_curvature(axes, current().unit_log2);
-    if (!last && bends_too_much()) {
+    if (!last && (bends_too_much() || errs_too_much())) {
         return Verdict::coarse;
     }
     // For a piece that bends more, even the slowest speed of a plan is too fast.
@@ -137,6 +164,7 @@ template <Scalar S>
 void ArcLength<S>::fill_common(bool at_end, Cell<S>& out) noexcept {
     const CurveSegment<S>& segment = current();
     out.axes = segment.axes;
+    out.measured_mm = out.length_mm;
     out.unit_log2 = segment.unit_log2;
     out.feed_mm_s = segment.feed_mm_s;
     out.max_feed_mm_s = segment.max_feed_mm_s;
@@ -312,9 +340,13 @@ Pull ArcLength<S>::load() noexcept {
     const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
     // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still has some.
     nothing_ = larger(negligible_units<S>, scale2(literal<S>(2e-8), -current().unit_log2));
+    feed_mm_s_ = feed;
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     slow_ = slow_after_;
     slow_after_ = has_ahead_ && !stop_after_ && turns_within(ahead, literal<S>(slow_grades) * grade_mm_);
+    if constexpr (!counts_from_own_start<S>) { // in float a direction has too few digits to tell
+        current().straighten();
+    }
     stack_[0].control = current().control;
     if constexpr (counts_from_own_start<S>) {
         for (const unsigned k : indices(current().axes)) {

@@ -64,6 +64,7 @@ private:
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool leaves_open_travel(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool bends_too_much() const noexcept;
+    [[nodiscard]] bool errs_too_much() const noexcept;
     [[nodiscard]] bool coarse_near(const Piece<S>& piece, bool start, bool end) const noexcept;
     void split() noexcept;
     void leave() noexcept;
@@ -87,6 +88,7 @@ private:
     PieceMeasure<S> m_{};                       // of the piece that is being judged
     Wide travelled_{};
     S grade_mm_{};
+    S feed_mm_s_{}; // of the segment
     PerAxis<Position> cusp_from_{};
     PerAxis<Position> cusp_to_{};
     S nothing_{}; // lengths below count as zero, in units of the current segment

@@ -7,45 +7,51 @@
 namespace splinefeed {
 
 template <Scalar S>
-S Cell<S>::parameter_at(S x) const noexcept {
-    const auto fraction = shortened<Ratio<S>>(x);
-    Ratio<S> deviation = inverse[5];
+template <Scalar X>
+X Cell<S>::parameter_at(X x) const noexcept {
+    const auto fraction = shortened<Ratio<X>>(x);
+    auto deviation = converted<Ratio<X>>(inverse[5]);
     for (unsigned i = 5; i-- > 0;) {
-        deviation = deviation * fraction + inverse[i];
+        deviation = deviation * fraction + converted<Ratio<X>>(inverse[i]);
     }
-    return x + lengthened<S>(deviation * fraction, -2);
+    return x + lengthened<X>(deviation * fraction, -2);
 }
 
 template <Scalar S>
-void Cell<S>::position_at(S x, PerAxis<Position>& out) const noexcept {
-    const S w = parameter_at(x);
+template <Scalar X>
+void Cell<S>::position_at(X x, PerAxis<Position>& out) const noexcept {
+    const X w = parameter_at(x);
     for (const unsigned k : indices(axes)) {
-        S offset = power[k][static_cast<unsigned>(degree)];
+        auto offset = converted<X>(power[k][static_cast<unsigned>(degree)]);
         for (int i = degree - 1; i >= 0; --i) {
-            offset = offset * w + power[k][static_cast<unsigned>(i)];
+            offset = offset * w + converted<X>(power[k][static_cast<unsigned>(i)]);
         }
         out[k] = displaced(origin[k], offset, unit_log2);
     }
 }
 
 template <Scalar S>
-void Cell<S>::direction_at(S x, PerAxis<S>& out) const noexcept {
-    const S w = parameter_at(x);
+template <Scalar X>
+void Cell<S>::direction_at(X x, PerAxis<X>& out) const noexcept {
+    const X w = parameter_at(x);
     for (const unsigned k : indices(axes)) {
-        S slope{};
+        X slope{};
         for (int i = degree; i > 0; --i) {
-            slope = slope * w + from_integer<S>(i) * power[k][static_cast<unsigned>(i)];
+            slope = slope * w + from_integer<X>(i) * converted<X>(power[k][static_cast<unsigned>(i)]);
         }
         out[k] = slope;
     }
-    const S sigma = norm(out, axes);
+    const X sigma = norm(out, axes);
     for (const unsigned k : indices(axes)) {
-        out[k] = sigma > S{} ? out[k] / sigma : S{};
+        out[k] = sigma > X{} ? out[k] / sigma : X{};
     }
 }
 
-#define SPLINEFEED_INSTANTIATE(S) template struct Cell<S>;
-SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
+#define SPLINEFEED_INSTANTIATE(S, X)                                                                                   \
+    template X Cell<S>::parameter_at(X) const noexcept;                                                                \
+    template void Cell<S>::position_at(X, PerAxis<Position>&) const noexcept;                                          \
+    template void Cell<S>::direction_at(X, PerAxis<X>&) const noexcept;
+SPLINEFEED_EACH_SAMPLED(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

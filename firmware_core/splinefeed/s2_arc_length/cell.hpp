@@ -45,6 +45,7 @@ struct Cell {
     PerAxis<PerDegree<S>> power{};     ///< offset = sum power[axis][i] w^i, w in [0, 1], in units of 2^unit_log2 mm
     std::array<Ratio<S>, 6> inverse{}; ///< w = x + sum inverse[i] x^(i+1) / 4, x = s / length_mm; their sum is 0
     S length_mm{};
+    S measured_mm{}; ///< length of the cell whose shape was measured: this one, or the one that it is a part of
     PerAxis<Ratio<S>> tangent_max{}; ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{};      ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
@@ -57,12 +58,15 @@ struct Cell {
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;
 
-    /// Position at the fraction x in [0, 1] of the cell's length. Cost: 6 + degree * axes products.
-    void position_at(S x, PerAxis<Position>& out) const noexcept;
+    /// Position at the fraction x in [0, 1] of the cell's length, in X: S, or double. Cost: 6 + degree * axes products.
+    template <Scalar X>
+    void position_at(X x, PerAxis<Position>& out) const noexcept;
     /// dq/ds at the same place, by the polynomial. Cost: a root, and as many products again.
-    void direction_at(S x, PerAxis<S>& out) const noexcept;
+    template <Scalar X>
+    void direction_at(X x, PerAxis<X>& out) const noexcept;
     /// Curve parameter w at the fraction x of the cell's length.
-    [[nodiscard]] S parameter_at(S x) const noexcept;
+    template <Scalar X>
+    [[nodiscard]] X parameter_at(X x) const noexcept;
 };
 
 } // namespace splinefeed

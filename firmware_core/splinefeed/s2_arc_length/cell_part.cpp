@@ -54,6 +54,11 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
             points_on(stretch, std::array<R, 4>{shape.tangent[0], shape.tangent[0] + sixth * shape.bend[0],
                                                 shape.tangent[1] - sixth * shape.bend[2], shape.tangent[1]});
         shape.tangent = {tangent[0], tangent[3]};
+        R steepest = absolute(tangent[0]);
+        for (const R t : tangent) {
+            steepest = larger(steepest, absolute(t));
+        }
+        out.tangent_max[k] = smaller(cell.tangent_max[k], steepest + scale2(shape.error_bound, -2));
         shape.bend = points_on(stretch, shape.bend);
         for (R& b : shape.bend) {
             b = b * share;

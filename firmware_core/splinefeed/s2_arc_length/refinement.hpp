@@ -14,23 +14,29 @@ struct PositionRange {
     Position high{std::numeric_limits<std::int64_t>::max()};
 };
 
+/// Which lines are cut only where they must be: the plan speeds up and brakes within a cell.
+enum class WholeLines : std::uint8_t { none, between_stops, all };
+
 /// How fine the cells are. The thresholds are deliberately not round numbers: no exact input lies on one, so all scalar
 /// types decide alike and their traces stay comparable.
 template <Scalar S>
 struct Refinement {
-    S longest_mm{};        ///< longest cell (limited by the resolution of the parameter w in Fixed and float)
-    S max_feed_mm_s{};     ///< feed of segments without a programmed feed
+    PerAxis<S> longest_mm{}; ///< longest way of an axis in a cell: by the resolution of its parameter
+    S max_feed_mm_s{};       ///< feed of segments without a programmed feed
     S grade_per_feed_sq{}; ///< a cell next to a joint is at most feed^2 times this: a fraction of the braking distance
     int finest_grade_log2 = 0; ///< next to a stop it is 2^-this of that length: jerk-limited motion starts
                                ///< slowly
-    bool whole_lines = false;  ///< a line is cut only where it must be: the plan speeds up and brakes within a cell
-    int axes = 0;              ///< number of axes that a segment must have; 0: any
+    WholeLines whole_lines = WholeLines::none;
+    int axes = 0;                       ///< number of axes that a segment must have; 0: any
     PerAxis<PositionRange> countable{}; ///< range in which the control points of a segment must be
     PerAxis<PositionRange> open{};      ///< range in which an axis may move at full speed; outside it is near the ends
                                         ///< of its travel
     S end_piece_mm{};                   ///< longest cell across a border of `open`; 0: no axis has one
-    PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed at a joint of cells that rounding may cause
-    S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner: the machine stops
+    PerAxis<S> bend_mm_s2{};            ///< with a jerk limit: no axis bends the path with more, about
+    PerAxis<S> error_mm_s3{}; ///< with a jerk limit: largest jerk by which the shape of a cell may be off, per
+                              ///< AxisShape::error_bound v^3 / L^2; 0: any
+    PerAxis<S> jump_mm_s{};   ///< largest jump of an axis's speed at a joint of cells that rounding may cause
+    S direction_jump{};       ///< a larger change of dq/ds at a joint is a corner: the machine stops
     Ratio<S> turn = literal<Ratio<S>>(0.0613); ///< largest change of direction within a cell [rad]
     Ratio<S> curvature_change =
         literal<Ratio<S>>(0.0127); ///< largest change of curvature times length within a cell [rad]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MotionPlan: the plan that the segment stream follows. It says, one profile segment after another, how the path is
-// travelled.
+// travelled; SampledPlan, in which numbers.
 #pragma once
 
 #include "splinefeed/base/work_budget.hpp"
@@ -18,26 +18,26 @@ enum class SpeedShape : std::uint8_t {
     cubic     ///< s is a cubic of time: constant jerk along the path
 };
 
-/// How the machine passes a cell or a part of it. Speeds are v^2 [mm^2/s^2].
-template <Scalar S>
+/// How the machine passes a cell or a part of it, in the numbers in which it is sampled. Speeds are v^2 [mm^2/s^2].
+template <Scalar X>
 struct ProfileSegment {
-    CellInterval<S> stretch{};
-    S entry_sq{};
-    S exit_sq{};
+    CellInterval<X> stretch{};
+    X entry_sq{};
+    X exit_sq{};
     bool stops = false; ///< the machine stops at its end and dwells
     SpeedShape shape = SpeedShape::line;
-    S middle_sq{};   ///< parabola
-    S duration_ms{}; ///< cubic: its length after the fraction y of the time is the profile segment's length times
-    S linear{};      ///< linear y + quadratic y^2 + (1 - linear - quadratic) y^3
-    S quadratic{};
+    X middle_sq{};   ///< parabola
+    X duration_ms{}; ///< cubic: its length after the fraction y of the time is the profile segment's length times
+    X linear{};      ///< linear y + quadratic y^2 + (1 - linear - quadratic) y^3
+    X quadratic{};
 };
 
 /// Where the machine is on its profile segment.
-template <Scalar S>
+template <Scalar X>
 struct PlanState {
-    S fraction{};   ///< fraction of the cell's length
-    S speed_sq{};   ///< v^2, or the value that a hold may take for it (SegmentStream)
-    S time_share{}; ///< fraction of the profile segment's time
+    X fraction{};   ///< fraction of the cell's length
+    X speed_sq{};   ///< v^2, or the value that a hold may take for it (SegmentStream)
+    X time_share{}; ///< fraction of the profile segment's time
 };
 
 /// What became of a change of the steering.
@@ -74,19 +74,11 @@ public:
     virtual bool plan_ahead(WorkBudget& work) noexcept = 0;
     /// @pre the last prepare() answered item; the same for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
-    [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
     /// The profile segment is done; go on to the next one.
     virtual void advance() noexcept = 0;
-    /// The machine stopped at this fraction of the cell, on its last profile segment. @pre before the segment's end: at
-    /// the end it is advance()
-    virtual void rest_at(S fraction) noexcept = 0;
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
-    /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
-    /// the change applies from the next profile segment on. `busy`: call again, with the same place; or, in a machine
-    /// that cannot wait (UnderrunPolicy::urgent), with a later one.
-    virtual Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell, for a new program. @pre standing()
@@ -96,8 +88,27 @@ protected:
     MotionPlan() noexcept = default;
     ~MotionPlan() = default;
 
-    ProfileSegment<S> profile_segment_;
     Steering<S> steering_;
+};
+
+/// A plan of cells in the scalar S that is sampled in X.
+template <Scalar S, Scalar X = S>
+class SampledPlan : public MotionPlan<S> {
+public:
+    [[nodiscard]] const ProfileSegment<X>& profile_segment() const noexcept { return profile_segment_; }
+    /// The machine stopped at this fraction of the cell, on its last profile segment. @pre before the segment's end: at
+    /// the end it is advance()
+    virtual void rest_at(X fraction) noexcept = 0;
+    /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
+    /// the change applies from the next profile segment on. `busy`: call again, with the same place; or, in a machine
+    /// that cannot wait (UnderrunPolicy::urgent), with a later one.
+    virtual Steered steer(const PlanState<X>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept = 0;
+
+protected:
+    SampledPlan() noexcept = default;
+    ~SampledPlan() = default;
+
+    ProfileSegment<X> profile_segment_;
 };
 
 } // namespace splinefeed

@@ -43,23 +43,23 @@ constexpr int fine = 12;                  // lengths in units of 2^-12 mm
 
 } // namespace
 
-template <Scalar S>
-ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept
-    : plan_(&plan), segments_per_s_(limits.segments_per_s), axes_(limits.axes) {
+template <Scalar S, Scalar X>
+ProfileSampler<S, X>::ProfileSampler(SampledPlan<S, X>& plan, const MotionLimits<S>& limits) noexcept
+    : plan_(&plan), segments_per_s_(converted<X>(limits.segments_per_s)), axes_(limits.axes) {
     for (const unsigned k : indices(axes_)) {
-        braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
+        braking_mm_s2_[k] = converted<X>(smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]));
     }
     between_samples_ = !limits.jerk_limited;
 }
 
 // Computes the time of the plan's next profile segment.
-template <Scalar S>
-Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+template <Scalar S, Scalar X>
+Pull ProfileSampler<S, X>::enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     const Pull pull = plan_->prepare(underrun, work);
     if (pull != Pull::item) {
         return pull;
     }
-    motion_ = ProfileMotion<S>(plan_->profile_segment(), plan_->cell().length_mm, segments_per_s_);
+    motion_ = ProfileMotion<X>(plan_->profile_segment(), converted<X>(plan_->cell().length_mm), segments_per_s_);
     waypoint_ = plan_->cell().waypoint;
     in_segment_ = true;
     work.charge();
@@ -67,60 +67,60 @@ Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun, WorkBudget& work)
 }
 
 // Fraction of the cell's length where the machine is at a time since the start of the profile segment.
-template <Scalar S>
-S ProfileSampler<S>::fraction_at(S time) const noexcept {
-    const S x = motion_.at(motion_.share_of(time));
-    const CellInterval<S>& stretch = plan_->profile_segment().stretch;
+template <Scalar S, Scalar X>
+X ProfileSampler<S, X>::fraction_at(X time) const noexcept {
+    const X x = motion_.at(motion_.share_of(time));
+    const CellInterval<X>& stretch = plan_->profile_segment().stretch;
     return stretch.whole() ? x : stretch.from + stretch.length() * x;
 }
 
 // The speed from which a stop may start at the last control point.
-template <Scalar S>
-S ProfileSampler<S>::braked(S x, S speed) const noexcept {
-    PerAxis<S> direction{};
+template <Scalar S, Scalar X>
+X ProfileSampler<S, X>::braked(X x, X speed) const noexcept {
+    PerAxis<X> direction{};
     plan_->cell().direction_at(x, direction);
-    const S way = scale2(speed, fine) / segments_per_s_;
-    S less = way;
+    const X way = scale2(speed, fine) / segments_per_s_;
+    X less = way;
     for (const unsigned k : indices(axes_)) {
-        const S half = scale2(braking_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
-        const bool forward = direction[k] > S{};
-        const S along = absolute(direction[k]);
-        const S last = distance<S>(previous_[k], position_[k], -fine);
-        const S room = half + along * way - (forward ? last : -last);
-        if (half < literal<S>(least_change) || !(room > S{}) || !(way > S{})) {
+        const X half = scale2(braking_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
+        const bool forward = direction[k] > X{};
+        const X along = absolute(direction[k]);
+        const X last = distance<X>(previous_[k], position_[k], -fine);
+        const X room = half + along * way - (forward ? last : -last);
+        if (half < literal<X>(least_change) || !(room > X{}) || !(way > X{})) {
             return speed;
         }
-        less = smaller(less, quotient_or_max(room * literal<S>(kept_for_rounding), along));
+        less = smaller(less, quotient_or_max(room * literal<X>(kept_for_rounding), along));
     }
     return speed * ((way - less) / way);
 }
 
 // The last sample is a stop.
-template <Scalar S>
-void ProfileSampler<S>::rest() noexcept {
+template <Scalar S, Scalar X>
+void ProfileSampler<S, X>::rest() noexcept {
     repeats_ = 2;
     previous_ = position_;
     resting_ = true;
 }
 
 // Chooses the profile segment from the place of the last control point. false: the budget is spent.
-template <Scalar S>
-bool ProfileSampler<S>::follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept {
-    const S v0 = square_root(plan_->profile_segment().entry_sq);
-    const S v1 = square_root(plan_->profile_segment().exit_sq);
-    const S share = motion_.share_of(elapsed_);
-    const S x = fraction_at(elapsed_);
-    S speed = v0 + (v1 - v0) * share;
+template <Scalar S, Scalar X>
+bool ProfileSampler<S, X>::follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    const X v0 = square_root(plan_->profile_segment().entry_sq);
+    const X v1 = square_root(plan_->profile_segment().exit_sq);
+    const X share = motion_.share_of(elapsed_);
+    const X x = fraction_at(elapsed_);
+    X speed = v0 + (v1 - v0) * share;
     // Without a jump of the acceleration the hold needs no correction at its start.
     if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
         speed = braked(x, speed);
     }
-    const PlanState<S> place{.fraction = x, .speed_sq = speed * speed, .time_share = share};
+    const PlanState<X> place{.fraction = x, .speed_sq = speed * speed, .time_share = share};
     const Steered steered = plan_->steer(place, underrun, work);
     if (steered != Steered::changed) {
         return steered != Steered::busy;
     }
-    elapsed_ = S{};
+    elapsed_ = X{};
     in_segment_ = false;
     if (plan_->standing()) {
         rest(); // so slow that the last control point is the stop
@@ -129,18 +129,18 @@ bool ProfileSampler<S>::follow_steering(UnderrunPolicy underrun, WorkBudget& wor
 }
 
 // Whether a second difference of the samples keeps the acceleration of an axis.
-template <Scalar S>
-bool ProfileSampler<S>::within(unsigned axis, S change) const noexcept {
-    const S size = absolute(change);
-    const S largest = scale2(braking_mm_s2_[axis] / segments_per_s_, fine) / segments_per_s_;
-    return !(size > S{}) || (size <= literal<S>(kept_of_change) * largest && largest > literal<S>(least_change));
+template <Scalar S, Scalar X>
+bool ProfileSampler<S, X>::within(unsigned axis, X change) const noexcept {
+    const X size = absolute(change);
+    const X largest = scale2(braking_mm_s2_[axis] / segments_per_s_, fine) / segments_per_s_;
+    return !(size > X{}) || (size <= literal<X>(kept_of_change) * largest && largest > literal<X>(least_change));
 }
 
-template <Scalar S>
-bool ProfileSampler<S>::may_arrive_at(const PerAxis<Position>& stop) const noexcept {
+template <Scalar S, Scalar X>
+bool ProfileSampler<S, X>::may_arrive_at(const PerAxis<Position>& stop) const noexcept {
     for (const unsigned k : indices(axes_)) {
-        const S before = distance<S>(older_[k], previous_[k], -fine);
-        const S last = distance<S>(previous_[k], stop[k], -fine);
+        const X before = distance<X>(older_[k], previous_[k], -fine);
+        const X last = distance<X>(previous_[k], stop[k], -fine);
         if (!within(k, last - before) || !within(k, last) || absolute(last) > absolute(before)) {
             return false;
         }
@@ -149,13 +149,13 @@ bool ProfileSampler<S>::may_arrive_at(const PerAxis<Position>& stop) const noexc
 }
 
 // Whether the first sample of a motion from rest may be later in it: the profile segment lasts that long.
-template <Scalar S>
-bool ProfileSampler<S>::may_leave() const noexcept {
-    const S first = literal<S>(1.0 + head_start);
-    const S second = literal<S>(2.0 + head_start);
-    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
-    if (!between_samples_ || !resting_ || elapsed_ > S{} || profile_segment.shape != SpeedShape::line ||
-        profile_segment.entry_sq > S{} || !(second < motion_.duration())) {
+template <Scalar S, Scalar X>
+bool ProfileSampler<S, X>::may_leave() const noexcept {
+    const X first = literal<X>(1.0 + head_start);
+    const X second = literal<X>(2.0 + head_start);
+    const ProfileSegment<X>& profile_segment = plan_->profile_segment();
+    if (!between_samples_ || !resting_ || elapsed_ > X{} || profile_segment.shape != SpeedShape::line ||
+        profile_segment.entry_sq > X{} || !(second < motion_.duration())) {
         return false;
     }
     PerAxis<Position> near{};
@@ -163,8 +163,8 @@ bool ProfileSampler<S>::may_leave() const noexcept {
     plan_->cell().position_at(fraction_at(first), near);
     plan_->cell().position_at(fraction_at(second), far);
     for (const unsigned k : indices(axes_)) {
-        const S before = distance<S>(position_[k], near[k], -fine);
-        const S behind = distance<S>(near[k], far[k], -fine);
+        const X before = distance<X>(position_[k], near[k], -fine);
+        const X behind = distance<X>(near[k], far[k], -fine);
         if (!within(k, before) || !within(k, behind - before) || absolute(before) > absolute(behind)) {
             return false;
         }
@@ -173,26 +173,26 @@ bool ProfileSampler<S>::may_leave() const noexcept {
 }
 
 // The control point of a stop, if the machine comes to one before the next sample.
-template <Scalar S>
-bool ProfileSampler<S>::arrive() noexcept {
-    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
+template <Scalar S, Scalar X>
+bool ProfileSampler<S, X>::arrive() noexcept {
+    const ProfileSegment<X>& profile_segment = plan_->profile_segment();
     if (!profile_segment.stops) {
         return false;
     }
     const Cell<S>& cell = plan_->cell();
     // With a limited jerk the last part of the way to standstill is no longer than rounding.
     const bool bound_to_place = !plan_->steering().stops() || profile_segment.shape != SpeedShape::line;
-    const S early = !bound_to_place ? literal<S>(0.5) : between_samples_ ? literal<S>(head_start) : literal<S>(arrival);
+    const X early = !bound_to_place ? literal<X>(0.5) : between_samples_ ? literal<X>(head_start) : literal<X>(arrival);
     if (elapsed_ + early < motion_.duration()) {
         return false;
     }
-    const S end = profile_segment.stretch.to;
-    const S x = !bound_to_place && elapsed_ < motion_.duration() ? smaller(fraction_at(elapsed_), end) : end;
+    const X end = profile_segment.stretch.to;
+    const X x = !bound_to_place && elapsed_ < motion_.duration() ? smaller(fraction_at(elapsed_), end) : end;
     PerAxis<Position> stop = cell.end;
-    if (!cell.stop_at_end || !(x == from_integer<S>(1))) {
+    if (!cell.stop_at_end || !(x == from_integer<X>(1))) {
         cell.position_at(x, stop);
     }
-    if (bound_to_place && elapsed_ + literal<S>(arrival) < motion_.duration() && !may_arrive_at(stop)) {
+    if (bound_to_place && elapsed_ + literal<X>(arrival) < motion_.duration() && !may_arrive_at(stop)) {
         return false;
     }
     position_ = stop;
@@ -202,14 +202,14 @@ bool ProfileSampler<S>::arrive() noexcept {
         plan_->advance();
     }
     rest();
-    elapsed_ = S{};
+    elapsed_ = X{};
     advanced_ = in_segment_ = false;
     return true;
 }
 
 // An underrun may interrupt it anywhere; it continues where it was.
-template <Scalar S>
-Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+template <Scalar S, Scalar X>
+Pull ProfileSampler<S, X>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (in_segment_ && !advanced_ && (steers_ || plan_->steering().pending())) {
         steers_ = !follow_steering(underrun, work);
         if (steers_ && underrun != UnderrunPolicy::urgent) {
@@ -222,7 +222,7 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept
     }
     const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun, work);
     if (!started_ && (entered == Pull::item || entered == Pull::held)) {
-        plan_->cell().position_at(S{}, origin_);
+        plan_->cell().position_at(X{}, origin_);
         previous_ = position_ = origin_;
         started_ = resting_ = true;
     }
@@ -230,7 +230,7 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept
         return entered;
     }
     if (!advanced_) {
-        elapsed_ += may_leave() ? literal<S>(1.0 + head_start) : from_integer<S>(1);
+        elapsed_ += may_leave() ? literal<X>(1.0 + head_start) : from_integer<X>(1);
         older_ = previous_;
         previous_ = position_;
         resting_ = false;
@@ -257,6 +257,8 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept
     return Pull::item;
 }
 
-SPLINEFEED_INSTANTIATE_CLASS(ProfileSampler)
+#define SPLINEFEED_INSTANTIATE(S, X) template class ProfileSampler<S, X>;
+SPLINEFEED_EACH_SAMPLED(SPLINEFEED_INSTANTIATE)
+#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed

@@ -11,10 +11,11 @@ namespace splinefeed {
 
 /// Memory: constant. Cost of next(): one evaluation of the curve, and one division per cell that is passed: amortised
 /// constant, at most the cells of the window. After a change of the steering also a visit to every cell of the window.
-template <Scalar S>
+/// @tparam X  in which it counts: that of the plan
+template <Scalar S, Scalar X = S>
 class ProfileSampler final : public Sampler<S> {
 public:
-    ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
+    ProfileSampler(SampledPlan<S, X>& plan, const MotionLimits<S>& limits) noexcept;
 
     Pull next(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool at_rest() const noexcept override { return !in_segment_ && repeats_ == 0 && !advanced_; }
@@ -23,23 +24,23 @@ public:
 private:
     Pull enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     bool follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept;
-    [[nodiscard]] S braked(S x, S speed) const noexcept;
+    [[nodiscard]] X braked(X x, X speed) const noexcept;
     bool arrive() noexcept;
     void rest() noexcept;
     [[nodiscard]] bool may_arrive_at(const PerAxis<Position>& stop) const noexcept;
     [[nodiscard]] bool may_leave() const noexcept;
-    [[nodiscard]] bool within(unsigned axis, S change) const noexcept;
-    [[nodiscard]] S fraction_at(S time) const noexcept;
+    [[nodiscard]] bool within(unsigned axis, X change) const noexcept;
+    [[nodiscard]] X fraction_at(X time) const noexcept;
 
     using Sampler<S>::position_;
     using Sampler<S>::origin_;
     using Sampler<S>::waypoint_;
 
-    MotionPlan<S>* plan_;
-    PerAxis<S> braking_mm_s2_{};
-    S segments_per_s_{};
-    S elapsed_{}; // time since the start of the profile segment [segment durations]
-    ProfileMotion<S> motion_;
+    SampledPlan<S, X>* plan_;
+    PerAxis<X> braking_mm_s2_{};
+    X segments_per_s_{};
+    X elapsed_{}; // time since the start of the profile segment [segment durations]
+    ProfileMotion<X> motion_;
     PerAxis<Position> previous_{}; // the previous sample
     PerAxis<Position> older_{};    // the one before it
     int axes_ = 0;

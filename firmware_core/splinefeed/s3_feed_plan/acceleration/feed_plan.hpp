@@ -31,7 +31,7 @@ namespace splinefeed {
 /// so does a cell that arrives while the input is starved. With a budget the cells that come and the visits are divided
 /// among calls; what is planned is the same.
 template <Scalar S>
-class FeedPlan final : public MotionPlan<S> {
+class FeedPlan final : public SampledPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 10;
 
@@ -48,8 +48,6 @@ public:
     bool measure_ahead(WorkBudget& work) noexcept;
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return window_.at(0); }
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return front().cell; }
-    /// Largest v^2 in the front cell, whatever the programmed feed and the cells before and after it.
-    [[nodiscard]] S cap_sq() const noexcept { return front().cap_sq; }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
     /// Removes the front cell.
@@ -81,7 +79,7 @@ public:
 private:
     /// v^2 that is wanted in the front cell.
     [[nodiscard]] S wanted_sq() const noexcept {
-        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.wish());
+        return SpeedCaps<S>(limits_).wanted_sq(cell(), front().cap_sq, pass_.wish());
     }
     Pull measure(WorkBudget& work) noexcept;
     Pull fill(WorkBudget& work) noexcept;
@@ -102,7 +100,7 @@ private:
     ArcLength<S>* source_;
     const MotionLimits<S>& limits_;
     CellWindow<S> window_;
-    using MotionPlan<S>::profile_segment_;
+    using SampledPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
     Turning<S> turning_;

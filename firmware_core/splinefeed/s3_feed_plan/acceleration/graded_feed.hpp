@@ -22,8 +22,8 @@ public:
     }
 
     /// Calls `take(cell, cap_sq, exit_sq)` with the next part of the path if there is one. `cap_sq` is the largest v^2
-    /// anywhere in the part that the machine allows, `exit_sq` the acceleration-limited v^2 at its end. `busy`: the
-    /// budget is spent.
+    /// anywhere in the part that the machine allows (SpeedCaps::bent_cap_sq), `exit_sq` the acceleration-limited v^2 at
+    /// its end. `busy`: the budget is spent.
     template <class Take>
     Pull next(UnderrunPolicy underrun, WorkBudget& work, Take&& take) noexcept {
         if (const Pull pull = prepare(underrun, work); pull != Pull::item) {
@@ -33,7 +33,7 @@ public:
         const CellInterval<S> part = next_part(cell);
         const S exit_sq = speed_sq_at(part.to);
         if (part.whole()) {
-            take(cell, source_->cap_sq(), exit_sq);
+            take(cell, SpeedCaps<S>(*limits_).bent_cap_sq(cell), exit_sq);
         } else {
             take_part(cell, part, exit_sq, take);
         }
@@ -52,7 +52,8 @@ private:
     /// Apart: the cell of the part does not lie on the stack below prepare().
     template <class Take>
     [[gnu::noinline]] void take_part(const Cell<S>& cell, const CellInterval<S>& part, S exit_sq, Take& take) noexcept {
-        take(part_of(cell, part), source_->cap_sq(), exit_sq);
+        const Cell<S> cut = part_of(cell, part);
+        take(cut, SpeedCaps<S>(*limits_).bent_cap_sq(cut), exit_sq);
     }
     Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;

@@ -10,14 +10,14 @@ namespace splinefeed {
 
 // At slowest_sq the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
 template <Scalar S>
-S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
+S SpeedCaps<S>::cap_sq(const Cell<S>& cell, bool turns) const noexcept {
     // The block's own maximum limits the feed, whatever is programmed and overridden.
     const S fastest = fastest_feed(cell);
     const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), fastest) : fastest;
     S speed = path_speed(cell, most);
     for (const unsigned k : indices(limits_.axes)) {
         const S velocity = axis_velocity(cell, limits_, k);
-        if (speed * cell.tangent_max[k] > velocity) {
+        if (!(turns && velocity == limits_.velocity_mm_s[k]) && speed * cell.tangent_max[k] > velocity) {
             speed = velocity / lengthened<S>(cell.tangent_max[k]);
         }
     }

@@ -21,11 +21,14 @@ public:
 
     /// What the machine allows, whatever the programmed feed. This is the only place where a limit of the speed is
     /// stated.
-    [[nodiscard]] S cap_sq(const Cell<S>& cell) const noexcept;
+    [[nodiscard]] S cap_sq(const Cell<S>& cell) const noexcept { return cap_sq(cell, false); }
+    /// The same for a plan that keeps the velocities of the axes in a bent cell by itself (JerkCell).
+    [[nodiscard]] S bent_cap_sq(const Cell<S>& cell) const noexcept { return cap_sq(cell, cell.degree > 1); }
     /// What an operator wants in a cell with this cap.
     [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept;
 
 private:
+    [[nodiscard]] S cap_sq(const Cell<S>& cell, bool turns) const noexcept;
     [[nodiscard]] S fastest_feed(const Cell<S>& cell) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
 

@@ -43,9 +43,41 @@ Steepness<R> steepness(const JerkCell<R>& cell, unsigned axis) noexcept {
 
 } // namespace
 
+// |q'| <= U, linear between the ends: the chord, higher by what the Bezier points of q' exceed it, of which a cubic has
+// 3/4 at most. V^2 / U^2 is convex, so its tangent in the middle of the cell lies below it.
+template <Floating R>
+void JerkCell<R>::limit_velocity(unsigned axis, R spread) noexcept {
+    const AxisEnd<R>& from = end[0][axis];
+    const AxisEnd<R>& to = end[1][axis];
+    const R third = R(1.0 / 3.0) * length_mm;
+    const R inner[] = {absolute(from.first + third * from.second), absolute(to.first - third * to.second)};
+    R first = absolute(from.first);
+    R last = absolute(to.first);
+    const R above =
+        larger(inner[0] - (first + first + last) * R(1.0 / 3.0), inner[1] - (first + last + last) * R(1.0 / 3.0));
+    const R more = R(0.75) * larger(above, R(0)) + spread;
+    first += more;
+    last += more;
+    const R velocity = limits.velocity_mm_s[axis];
+    const R fastest = larger(first, last);
+    if (!(fastest * fastest * cap_sq > velocity * velocity)) {
+        return;
+    }
+    const R middle = R(0.5) * (first + last);
+    const R part = (last - first) / middle;
+    if (absolute(part) > R(0.5)) { // its tangent would be lower than the square at the faster end
+        const R least = velocity / fastest;
+        most_sq = {smaller(most_sq[0], least * least), smaller(most_sq[1], least * least)};
+        return;
+    }
+    const R speed = velocity / middle;
+    most_sq[0] = smaller(most_sq[0], speed * speed * (R(1) + part));
+    most_sq[1] = smaller(most_sq[1], speed * speed * (R(1) - part));
+}
+
 template <Floating R>
 R JerkCell<R>::largest_from_rest(unsigned moving) const noexcept {
-    R largest_b = cap_sq;
+    R largest_b = smaller(cap_sq, most_sq[moving]); // b is convex from standstill
     const R l = length_mm;
     for (const unsigned k : indices(limits.axes)) {
         const AxisEnd<R>& rest = end[1 - moving][k];
@@ -81,8 +113,8 @@ R JerkCell<R>::largest_from_rest(unsigned moving) const noexcept {
 
 // |q'| a + |q''| v^2 <= A and |q'| j + 3 |q''| v a + |q'''| v^3 <= J: bends get at most half of A and two thirds of J.
 template <Floating R>
-MoveLimits JerkCell<R>::move_limits(R most_sq) const noexcept {
-    R v_sq = most_sq;
+MoveLimits JerkCell<R>::move_limits(R at_most_sq) const noexcept {
+    R v_sq = smaller(at_most_sq, smaller(most_sq[0], most_sq[1]));
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
         v_sq = smaller(v_sq, quotient_or_max(R(0.5) * limits.acceleration_mm_s2[k], s.second));
@@ -106,16 +138,16 @@ MoveLimits JerkCell<R>::move_limits(R most_sq) const noexcept {
 }
 
 template <Floating R>
-bool JerkCell<R>::straight(R most_sq) const noexcept {
-    const R v = square_root(most_sq);
+bool JerkCell<R>::straight(R at_most_sq) const noexcept {
+    const R v = square_root(at_most_sq);
     auto a = largest<R>(); // along the path
     for (const unsigned k : indices(limits.axes)) {
         a = smaller(a, quotient_or_max(limits.acceleration_mm_s2[k], steepness(*this, k).first));
     }
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
-        if (s.second * most_sq > R(nothing) * limits.acceleration_mm_s2[k] ||
-            (R(3.0) * s.second * a + s.third * most_sq) * v > R(nothing) * limits.jerk_mm_s3[k]) {
+        if (s.second * at_most_sq > R(nothing) * limits.acceleration_mm_s2[k] ||
+            (R(3.0) * s.second * a + s.third * at_most_sq) * v > R(nothing) * limits.jerk_mm_s3[k]) {
             return false;
         }
     }

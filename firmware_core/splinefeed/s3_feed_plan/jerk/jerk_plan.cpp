@@ -18,8 +18,6 @@ template <Scalar S>
 constexpr S longest_part(std::size_t window) noexcept {
     return window < 256 ? literal<S>(0.3) : literal<S>(0.15);
 }
-template <Scalar S>
-constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
 
 } // namespace
 
@@ -61,21 +59,21 @@ void JerkPlan<S, R>::forward_step_on_line() noexcept {
     const JerkNode<R>& node = window_.node(0);
     const bool last = node.travel == Travel::rest_to_rest || cell().stop_at_end; // the move ends in this cell
     const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
-    const S from = profile_segment_.stretch.from;
+    const X from = profile_segment_.stretch.from;
     on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
-    const S one = from_integer<S>(1);
-    const S reached = from_double<S>(on_line_mm_ * per_length);
+    const X one = from_integer<X>(1);
+    const X reached = from_double<X>(on_line_mm_ * per_length);
     const bool to_end = last ? line_.done() : !(on_line_mm_ < length && reached < one);
     // The last phase of a move may be shorter than the last digit of a cell: one digit is reserved for it.
-    const S before_end = one - scale2(one, last_digit_log2<S>);
+    const X before_end = one - scale2(one, last_digit_log2<X>);
     profile_segment_ = {};
     profile_segment_.stretch = {from, to_end ? one : smaller(reached, before_end)};
-    profile_segment_.entry_sq = from_double<S>(piece.entry_mm_s * piece.entry_mm_s);
-    profile_segment_.exit_sq = from_double<S>(piece.exit_mm_s * piece.exit_mm_s);
+    profile_segment_.entry_sq = from_double<X>(piece.entry_mm_s * piece.entry_mm_s);
+    profile_segment_.exit_sq = from_double<X>(piece.exit_mm_s * piece.exit_mm_s);
     profile_segment_.shape = SpeedShape::cubic;
-    profile_segment_.duration_ms = from_double<S>(1e3 * piece.duration_s);
-    profile_segment_.linear = from_double<S>(piece.linear);
-    profile_segment_.quadratic = from_double<S>(piece.quadratic);
+    profile_segment_.duration_ms = from_double<X>(1e3 * piece.duration_s);
+    profile_segment_.linear = from_double<X>(piece.linear);
+    profile_segment_.quadratic = from_double<X>(piece.quadratic);
     profile_segment_.stops = to_end && line_.done();
 }
 
@@ -96,20 +94,20 @@ void JerkPlan<S, R>::forward_step() noexcept {
         forward_step_on_line();
         return;
     }
-    profile_segment_.entry_sq = from_double<S>(from.b);
-    profile_segment_.exit_sq = from_double<S>(to.b);
-    const bool starts = !(profile_segment_.entry_sq > S{});
-    const bool stops = !(profile_segment_.exit_sq > S{});
+    profile_segment_.entry_sq = from_double<X>(from.b);
+    profile_segment_.exit_sq = from_double<X>(to.b);
+    const bool starts = !(profile_segment_.entry_sq > X{});
+    const bool stops = !(profile_segment_.exit_sq > X{});
     profile_segment_.stops = stops;
     if (starts || stops) { // constant jerk, t = 3 L / v
         profile_segment_.shape = SpeedShape::cubic;
         profile_segment_.duration_ms =
-            from_double<S>(3e3 * to_double(from.length_mm) / square_root(starts ? to.b : from.b));
-        profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
-        profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
+            from_double<X>(3e3 * to_double(from.length_mm) / square_root(starts ? to.b : from.b));
+        profile_segment_.linear = from_integer<X>(starts ? 0 : 3);
+        profile_segment_.quadratic = from_integer<X>(starts ? 0 : -3);
     } else {
         profile_segment_.shape = SpeedShape::parabola;
-        profile_segment_.middle_sq = from_double<S>(from.middle_sq);
+        profile_segment_.middle_sq = from_double<X>(from.middle_sq);
     }
 }
 
@@ -190,7 +188,7 @@ Search JerkPlan<S, R>::answer(double from, const SpeedState& state, UnderrunPoli
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
-    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / to_double(window_.node(0).length_mm));
+    profile_segment_.stretch.from = from_double<X>(on_line_mm_ / to_double(window_.node(0).length_mm));
     halt_ = 0;
     if (steering_.stops()) {
         plan_.commit(plan_.planned());
@@ -205,7 +203,7 @@ Search JerkPlan<S, R>::answer(double from, const SpeedState& state, UnderrunPoli
 }
 
 template <Scalar S, Floating R>
-Steered JerkPlan<S, R>::steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept {
+Steered JerkPlan<S, R>::steer(const PlanState<X>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
     const double length_mm = to_double(window_.node(0).length_mm);
@@ -329,11 +327,11 @@ void JerkPlan<S, R>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
     answer_ = answer_ == Answer::owed ? Answer::due : answer_;
-    if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
+    if (!(profile_segment_.stretch.to == from_integer<X>(1))) {
         profile_segment_.stretch.from = profile_segment_.stretch.to;
         return;
     }
-    profile_segment_.stretch.from = S{};
+    profile_segment_.stretch.from = X{};
     on_line_mm_ = 0.0;
     window_.pop();
     plan_.pop();
@@ -341,7 +339,7 @@ void JerkPlan<S, R>::advance() noexcept {
 }
 
 template <Scalar S, Floating R>
-void JerkPlan<S, R>::rest_at(S /*fraction*/) noexcept {
+void JerkPlan<S, R>::rest_at(X /*fraction*/) noexcept {
     SPLINEFEED_ASSERT(false); // it ends where it says
 }
 

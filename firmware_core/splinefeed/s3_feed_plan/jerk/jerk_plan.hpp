@@ -17,12 +17,18 @@
 
 namespace splinefeed {
 
+/// What a plan that is made in R samples its motion in: double loses nothing that Fixed has.
+template <Scalar S, Floating R>
+using JerkSampled = std::conditional_t<std::same_as<R, double>, double, S>;
+
 /// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan<R>). In
 /// parts: a step of the search is as many steps of the budget as the leg has cells. A change of the
 /// steering while the machine moves plans the path ahead two or three times (JerkChange).
 template <Scalar S, Floating R>
-class JerkPlan final : public MotionPlan<S> {
+class JerkPlan final : public SampledPlan<S, JerkSampled<S, R>> {
 public:
+    using X = JerkSampled<S, R>;
+
     static constexpr std::size_t smallest_window = 16;
 
     /// @pre storage has at least smallest_window cells, and is enough(); this also holds for all other functions
@@ -33,8 +39,8 @@ public:
     bool plan_ahead(WorkBudget& work) noexcept override;
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
-    void rest_at(S fraction) noexcept override;
-    Steered steer(const PlanState<S>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    void rest_at(X fraction) noexcept override;
+    Steered steer(const PlanState<X>& place, UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 
@@ -45,7 +51,7 @@ public:
     [[nodiscard]] std::uint64_t searched_legs() const noexcept { return plan_.searched_legs(); }
 
 private:
-    using MotionPlan<S>::profile_segment_;
+    using SampledPlan<S, X>::profile_segment_;
     using MotionPlan<S>::steering_;
 
     /// To the latest change of the steering.

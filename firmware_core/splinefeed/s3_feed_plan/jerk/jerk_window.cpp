@@ -27,6 +27,7 @@ AxisLimits<R> axis_limits_of(const MotionLimits<S>& limits) noexcept {
     AxisLimits<R> out;
     out.axes = limits.axes;
     for (const unsigned k : indices(limits.axes)) {
+        out.velocity_mm_s[k] = to_floating<R>(limits.velocity_mm_s[k]);
         out.acceleration_mm_s2[k] = to_floating<R>(smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]));
         out.jerk_mm_s3[k] = to_floating<R>(limits.jerk_mm_s3[k]);
     }
@@ -41,6 +42,7 @@ JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap
     out.cap_sq = cap_sq;
     const R per_length = R(1) / out.length_mm;
     const R half = R(0.5) * per_length;
+    const R per_measured = R(ripple) / to_floating<R>(cell.measured_mm);
     for (const unsigned k : indices(cell.axes)) {
         const AxisShape<S>& shape = cell.shape[k];
         for (unsigned e = 0; e < 2; ++e) {
@@ -49,8 +51,11 @@ JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap
             at.second = half * to_floating<R>(shape.bend[2 * e]);
             at.third = per_length * per_length * to_floating<R>(shape.bend[1 + e] - shape.bend[e]);
             at.second_spread = half * to_floating<R>(shape.error_bound);
-            at.third_spread = R(ripple) * half * per_length * to_floating<R>(shape.shape_error());
+            at.third_spread = per_measured * half * to_floating<R>(shape.shape_error());
         }
+        // The error of q'' adds up from the nearer end of the cell that was measured.
+        out.limit_velocity(k,
+                           R(0.25) * to_floating<R>(shape.error_bound) * to_floating<R>(cell.measured_mm) * per_length);
     }
     return out;
 }

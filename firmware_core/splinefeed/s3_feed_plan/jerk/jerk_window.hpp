@@ -15,6 +15,9 @@
 
 namespace splinefeed {
 
+template <Scalar S>
+inline constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; ///< of fractions of a cell
+
 /// How a cell is travelled.
 enum class Travel : std::uint8_t {
     curve,       ///< with b as a parabola, or next to standstill with constant jerk
@@ -25,12 +28,12 @@ enum class Travel : std::uint8_t {
 /// A node of the window, and the plan of the cell after it. The plan is continuous to the last digit of double.
 template <Floating R>
 struct JerkNode {
-    R length_mm{};          ///< of the cell
-    R cap_sq{};             ///< largest v^2 anywhere in it
-    R most_sq{};            ///< at most its cap_sq, whatever the programmed feed
-    R wanted_sq{};          ///< its cap_sq with the present steering
-    R at_most_sq{};         ///< upper bound of b at the node: that of the acceleration-limited plan
-    double b = 0.0;         ///< the plan: v^2 at the node
+    R length_mm{};  ///< of the cell
+    R cap_sq{};     ///< largest v^2 anywhere in it, but for the velocities of the axes where it bends (JerkCell)
+    R most_sq{};    ///< at most its cap_sq, whatever the programmed feed
+    R wanted_sq{};  ///< its cap_sq with the present steering
+    R at_most_sq{}; ///< upper bound of b at the node: that of the acceleration-limited plan
+    double b = 0.0; ///< the plan: v^2 at the node
     double middle_sq = 0.0; ///< and the middle Bezier point of v^2 in the cell
     Travel travel = Travel::curve;
 };

@@ -26,6 +26,7 @@ struct LegAxis {
 template <Floating R>
 struct AxisLimits {
     int axes = 0;
+    PerAxis<R> velocity_mm_s{};
     PerAxis<R> acceleration_mm_s2{};
     PerAxis<R> jerk_mm_s3{};
 };
@@ -36,6 +37,7 @@ struct LegNode {
     R length_mm{};
     R per_length{};
     R cap_sq{};    ///< largest middle
+    R most_sq{};   ///< the same by the velocities of the axes alone
     R likely_sq{}; ///< an expected b of the cell, for instance that of the acceleration-limited plan
     R known_sq{};  ///< middle_sq in an earlier plan
     R middle_sq{}; ///< the unknown: the middle Bezier point of b in the cell

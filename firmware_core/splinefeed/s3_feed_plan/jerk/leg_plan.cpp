@@ -44,6 +44,8 @@ template <Floating R>
 constexpr double proved = std::same_as<R, double> ? 1.0 : 0.9999;
 constexpr double leads[] = {0.3, 0.6, 0.85};
 constexpr double lead_to_brake = 0.0;
+constexpr double most_slowing = 4.0;       // use of a limit, as it is counted
+constexpr double margin_of_slowing = 0.95; // of b
 constexpr double slower = 16.0; // than expected: the square of the speed that a motion begins with which is to brake
 constexpr int most_scalings = 12;
 constexpr double of_spread = 0.8; // of the jerk limit: what a cell's distance from the curve may take
@@ -112,12 +114,38 @@ void LegPlan<R>::add(const JerkCell<R>& cell, R at_most_sq) noexcept {
         there.second_spread = Pair<R>{to.second_spread, to.second_spread};
         there.third_spread = Pair<R>{to.third_spread, to.third_spread};
     }
+    limit_middles(cell);
     if (first) {
         first_most_sq_ = rests_ ? cell.largest_from_rest(1) : R(0);
         node.middle_sq = rests_ ? R(0) : node.b + R(0.5) * node.slope * node.length_mm;
     }
     last_most_sq_ = cell.largest_from_rest(0);
     ++cells_;
+}
+
+// The velocities of the axes allow b up to a line in each cell. At a node b lies on the line from one middle to the
+// next. So any line through what both cells allow at the node may bound the middles beside it; this one has the mean
+// slope of both.
+template <Floating R>
+void LegPlan<R>::limit_middles(const JerkCell<R>& cell) noexcept {
+    LegNode<R>& node = nodes_[cells_];
+    const R entry = R(proved<R>) * cell.most_sq[0];
+    const R exit = R(proved<R>) * cell.most_sq[1];
+    const R slope = (exit - entry) / cell.length_mm;
+    node.most_sq = R(0.5) * (entry + exit);
+    if (cells_ > 0) {
+        LegNode<R>& before = nodes_[cells_ - 1];
+        const R at_node = smaller(entry, exit_most_sq_);
+        const R steepest = at_node / larger(before.length_mm, cell.length_mm); // both stay above half of it
+        const R mean = R(0.5) * (slope + most_slope_);
+        const R half_slope = R(0.5) * larger(-steepest, smaller(mean, steepest));
+        before.most_sq = smaller(before.most_sq, at_node - half_slope * before.length_mm);
+        before.cap_sq = smaller(before.cap_sq, before.most_sq);
+        node.most_sq = smaller(node.most_sq, at_node + half_slope * cell.length_mm);
+    }
+    node.cap_sq = smaller(node.cap_sq, node.most_sq);
+    exit_most_sq_ = exit;
+    most_slope_ = slope;
 }
 
 template <Floating R>
@@ -197,16 +225,39 @@ void LegPlan<R>::brake() noexcept {
 template <Floating R>
 void LegPlan<R>::cap(std::size_t i, R cap_sq) noexcept {
     LegNode<R>& node = nodes_[i];
-    node.cap_sq = larger(R(proved<R>) * cap_sq, smaller(node.cap_sq, R(above_braking) * node.middle_sq));
+    node.cap_sq =
+        larger(smaller(R(proved<R>) * cap_sq, node.most_sq), smaller(node.cap_sq, R(above_braking) * node.middle_sq));
     node.known_sq = node.middle_sq;
     known_ = cells_;
 }
 
-// Another attempt, if there is one.
+// The jerk grows with the power 3/2 of b: so much slower, what exceeds a limit in its middle would keep it.
+template <Floating R>
+void LegPlan<R>::slow_down() noexcept {
+    const std::size_t near_start = rests_ ? 1 : 1 + known_ / 4;
+    for (std::size_t i = near_start; i + 1 < cells_; ++i) {
+        LegNode<R>& node = nodes_[i];
+        const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
+        const R most = smaller(larger(use.acceleration.most, use.jerk.most), R(most_slowing));
+        if (most > R(proved<R>)) {
+            node.cap_sq = smaller(node.cap_sq, R(margin_of_slowing) * node.middle_sq * power_two_thirds(R(1) / most));
+        }
+    }
+}
+
+// Another attempt, if there is one: where the limits were kept at the nodes, with less speed between them; where they
+// were not, with another first motion.
 template <Floating R>
 Search LegPlan<R>::fail() noexcept {
+    const bool solved = stage_ != Stage::first;
     stage_ = Stage::guess;
-    return rests_ || known_ < 2 || ++lead_ == std::size(leads) ? Search::none : Search::running;
+    if (++lead_ == std::size(leads) || (!solved && (rests_ || known_ < 2))) {
+        return Search::none;
+    }
+    if (solved) {
+        slow_down();
+    }
+    return Search::running;
 }
 
 template <Floating R>

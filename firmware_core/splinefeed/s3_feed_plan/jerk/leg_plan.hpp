@@ -77,9 +77,11 @@ private:
         R most{};
     };
 
+    void limit_middles(const JerkCell<R>& cell) noexcept;
     [[nodiscard]] std::span<LegNode<R>> leg() const noexcept { return nodes_.first(cells_ + 1); }
     void join() noexcept;
     void guess(double lead) noexcept;
+    void slow_down() noexcept;
     Search fail() noexcept;
     Proof prove(R from, bool tighten) noexcept;
 
@@ -91,6 +93,8 @@ private:
     bool rests_ = true;
     SpeedState start_{};
     AxisLimits<R> limits_{};
+    R exit_most_sq_{}; // of the last cell: JerkCell::most_sq, and its slope
+    R most_slope_{};
     R first_most_sq_{};
     R last_most_sq_{};
     Stage stage_ = Stage::guess;

@@ -7,8 +7,8 @@
 
 namespace splinefeed {
 
-template <Scalar S>
-SpeedState state_on(const ProfileSegment<S>& profile_segment, double cell_length_mm, double fraction,
+template <Scalar X>
+SpeedState state_on(const ProfileSegment<X>& profile_segment, double cell_length_mm, double fraction,
                     double time_share) noexcept {
     if (profile_segment.shape == SpeedShape::parabola) {
         const double b0 = to_double(profile_segment.entry_sq);
@@ -28,8 +28,8 @@ SpeedState state_on(const ProfileSegment<S>& profile_segment, double cell_length
     return {v * v, 2.0 * speed * per_s * (2.0 * quadratic + 6.0 * cubic * y)};
 }
 
-#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
-    template SpeedState state_on(const ProfileSegment<S>&, double, double, double) noexcept;
+#define SPLINEFEED_INSTANTIATE(X)                                                                                      \
+    template SpeedState state_on(const ProfileSegment<X>&, double, double, double) noexcept;
 SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 

@@ -10,8 +10,8 @@ namespace splinefeed {
 /// @param fraction  fraction of the cell's length where the machine is
 /// @param time_share  fraction of the profile segment's time at that place
 /// @pre SpeedShape::parabola over the whole cell, or SpeedShape::cubic
-template <Scalar S>
-[[nodiscard]] SpeedState state_on(const ProfileSegment<S>& profile_segment, double cell_length_mm, double fraction,
+template <Scalar X>
+[[nodiscard]] SpeedState state_on(const ProfileSegment<X>& profile_segment, double cell_length_mm, double fraction,
                                   double time_share) noexcept;
 
 } // namespace splinefeed

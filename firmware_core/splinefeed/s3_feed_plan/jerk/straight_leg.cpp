@@ -9,7 +9,7 @@ namespace splinefeed {
 namespace {
 
 template <Floating R>
-constexpr double same_cap = std::same_as<R, double> ? 1e-9 : 4e-7;
+constexpr double same_cap = std::same_as<R, double> ? 1e-6 : 4e-6;
 constexpr double end_part = 1e-6; // of a cell: a move that ends this near ends with the cell
 
 /// Largest v^2 of the acceleration-limited plan in the cell after a node, with the largest override.
@@ -46,7 +46,10 @@ StraightLeg<S, R>::StraightLeg(JerkWindow<S, R>& window) noexcept : window_(&win
     }
     limits_ = {square_root(to_double(front.most_sq)), largest<double>(), largest<double>()};
     for (std::size_t i = 0; i < cells_; ++i) {
-        const MoveLimits of_cell = window.limits_of(i).move_limits(fastest_sq(window.node(i), window.node(i + 1)));
+        const JerkCell<R> cell = window.limits_of(i);
+        const MoveLimits of_cell = cell.move_limits(fastest_sq(window.node(i), window.node(i + 1)));
+        const double most_sq = to_double(smaller(cell.most_sq[0], cell.most_sq[1]));
+        limits_.speed_mm_s = smaller(limits_.speed_mm_s, square_root(most_sq));
         limits_.acceleration_mm_s2 = smaller(limits_.acceleration_mm_s2, of_cell.acceleration_mm_s2);
         limits_.jerk_mm_s3 = smaller(limits_.jerk_mm_s3, of_cell.jerk_mm_s3);
     }
@@ -106,7 +109,9 @@ bool StraightLeg<S, R>::to_rest(double from, const SpeedState& state) noexcept {
     constexpr double least = JerkWindow<S, R>::shortest_mm;
     const double length = to_double(window_->node(i).length_mm);
     const bool whole = larger(left, least) > length - least;
-    const double more = (whole ? length : larger(left, least)) - left;
+    // A cell is split at a number of its scalar: the next one behind the place.
+    const S cut = from_double<S>(larger(left, least) / length) + scale2(from_integer<S>(1), last_digit_log2<S>);
+    const double more = (whole ? length : to_double(cut) * length) - left;
     if (whole ? i + 1 == cells_ : window_->room() == 0) {
         return false;
     }
@@ -114,7 +119,7 @@ bool StraightLeg<S, R>::to_rest(double from, const SpeedState& state) noexcept {
         move_ = SCurveProfile::to_length(state_of(state), move_.length_mm() + more, limits_);
     }
     if (!whole) {
-        window_->split(i, (left + more) / length);
+        window_->split(i, to_double(cut));
     }
     cells_ = i + 1;
     return true;

@@ -15,6 +15,12 @@ namespace splinefeed {
 
 /// One tick of a feed segment's duration is 1/8 us.
 
+/// The numbers in which a motion with limited jerk is sampled: those of its JerkPlanner.
+enum class SampledIn : std::uint8_t {
+    scalar, ///< the scalar of the pipeline
+    float64 ///< double, whatever the scalar: JerkPlanner<S, double>
+};
+
 /// The checked limits. A plain aggregate: for a microcontroller the compiler can build it.
 template <Scalar S>
 struct MotionLimits {
@@ -26,12 +32,13 @@ struct MotionLimits {
     S feed_mm_s{};                             ///< the part of max_feed_mm_s that planning may use
     S path_mm_s{}; ///< upper limit of the speed along the path, over all axes; without rotary axes feed_mm_s
     PerAxis<bool> rotary{};
-    PerAxis<S> end_velocity_mm_s{}; ///< of an axis outside Refinement::open; 0: no such limit
-    bool mixed = false;             ///< some axes are rotary and some are not
-    PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
-    bool jerk_limited = false;      ///< some axis has a jerk limit that binds: the motion needs a JerkPlan
-    S usable{};                     ///< the part of a limit that planning may use, before the noise of positions is
-                                    ///< subtracted
+    PerAxis<S> end_velocity_mm_s{};        ///< of an axis outside Refinement::open; 0: no such limit
+    bool mixed = false;                    ///< some axes are rotary and some are not
+    PerAxis<S> jerk_mm_s3{};               ///< meaningful where jerk_limited
+    bool jerk_limited = false;             ///< some axis has a jerk limit that binds: the motion needs a JerkPlan
+    SampledIn sampled = SampledIn::scalar; ///< a planner that samples more coarsely does not suit them
+    S usable{}; ///< the part of a limit that planning may use, before the noise of positions is
+                ///< subtracted
     S feed_noise_mm_s{};
     S centripetal_mm_s2{};           ///< 0: none
     S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
@@ -46,7 +53,9 @@ struct MotionLimits {
     }
 
     /// Checks every number (the error names the first one that is out of range) and computes the rest.
-    [[nodiscard]] static constexpr Result<MotionLimits, LimitError> make(const MachineSettings& stated) noexcept;
+    /// @param sampled  with float64 cells may be longer, and rounding takes less of a jerk limit
+    [[nodiscard]] static constexpr Result<MotionLimits, LimitError>
+    make(const MachineSettings& stated, SampledIn sampled = SampledIn::scalar) noexcept;
 };
 
 namespace detail {
@@ -56,7 +65,8 @@ template <Scalar S>
 inline constexpr double parameter_error = 9.4e-10; // 4 ulp of Q31.32; double takes the same cells, so that results are
                                                    // comparable
 template <>
-inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
+inline constexpr double parameter_error<float> = 2.4e-7;   // 4 x 2^-24
+inline constexpr double parameter_error_in_double = 4e-15; // 18 ulp, of motions with limited jerk
 
 /// The part of every limit that planning leaves for relative rounding.
 template <Scalar S>
@@ -95,6 +105,12 @@ constexpr double acceleration_noise(double error_mm, double segment_s) noexcept 
 /// The part of a jerk limit that planning leaves for jumps of the curvature.
 inline constexpr double jerk_reserve = 5e-4;
 
+/// The part of a jerk limit that the shape of a cell may be off by.
+inline constexpr double shape_share = 0.15;
+
+/// The error of the third derivative of a shape, times L^2, over AxisShape::error_bound (JerkWindow: ripple / 2).
+inline constexpr double third_per_second = 5.2;
+
 /// The smallest jerk limit that binds; 0: none does.
 constexpr double smallest_binding_jerk(const MachineSettings& settings, double segment_s) noexcept {
     double smallest = 0.0;
@@ -116,18 +132,19 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
     return 2.0 * error_mm / segment_s;
 }
 
-/// Length of the longest cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding that this
-/// causes must stay below `share` of the acceleration and ten times `share` of the feed. It must stay below a
-/// thousandth of the jerk if the jerk is limited (not 0), or three of them where cells would be very short.
-constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
-                                 double segment_s) noexcept {
+/// The longest way of an axis in a cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding
+/// that this causes must stay below `share` of the axis's acceleration and ten times `share` of the feed. It must stay
+/// below a thousandth of the jerk if the jerk is limited (not 0), or three of them where cells would be very short.
+/// @param most  it is not longer in any case
+constexpr double longest_way_mm(double error, double share, double acceleration, double feed, double jerk,
+                                double segment_s, double most) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
     const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
     double length = by_acceleration < by_feed ? by_acceleration : by_feed;
     const double by_jerk = 1e-3 * jerk * segment_s * segment_s * segment_s / (8.0 * error);
     const double coarser = 3.0 * by_jerk < 0.25 ? 3.0 * by_jerk : 0.25; // so that a window shows enough of the path
     length = jerk > 0.0 && by_jerk < length ? (coarser > by_jerk ? coarser : by_jerk) : length;
-    return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
+    return length < 0.0625 ? 0.0625 : length > most ? most : length;
 }
 
 /// Feed segments per sample period (1, 2, 4 or 8) that keep the smoothing of the path, T^2 |A| / 6, below 0.35 um.
@@ -245,7 +262,8 @@ constexpr LimitError axis_error(const AxisSettings& axis) noexcept {
 } // namespace detail
 
 template <Scalar S>
-constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const MachineSettings& stated) noexcept {
+constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const MachineSettings& stated,
+                                                                    SampledIn sampled) noexcept {
     if (const LimitError error = detail::machine_error(stated); error != LimitError::none) {
         return error;
     }
@@ -268,15 +286,23 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     const double segment_s = period_s / n;
     const double smoothest = detail::smallest_binding_jerk(settings, segment_s);
     limits.jerk_limited = smoothest > 0.0;
+    limits.sampled = limits.jerk_limited && sampled == SampledIn::float64 ? SampledIn::float64 : SampledIn::scalar;
+    const bool in_double = limits.jerk_limited && (std::same_as<S, double> || sampled == SampledIn::float64);
+    const double resolution = in_double ? detail::parameter_error_in_double : detail::parameter_error<S>;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
-    const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
-                                                   settings.max_feed_mm_s, smoothest, segment_s);
     for (const unsigned k : indices(settings.axes)) {
         const AxisSettings& axis = settings.axis[k];
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30). With a
         // jerk limit v^2 is a parabola of s, and the parameter is the sum of a series.
-        const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * detail::parameter_error<S>;
+        const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * resolution;
+        const double most_jerk = detail::sampled_jerk(axis, segment_s);
+        const bool binds = axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < most_jerk;
+        const double jerk = binds ? axis.max_jerk_mm_s3 : most_jerk;
+        const double longest = detail::longest_way_mm(
+            resolution, detail::rounding_share<S>, axis.smaller_acceleration_mm_s2(), settings.max_feed_mm_s,
+            limits.jerk_limited ? jerk : 0.0, segment_s, in_double ? 1024.0 : 16.0);
+        limits.refinement.longest_mm[k] = from_double<S>(longest);
         const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
         if (noise > 0.25 * axis.smaller_acceleration_mm_s2()) {
@@ -310,14 +336,15 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.rotary[k] = axis.rotary;
         limits.refinement.countable[k] = detail::countable(axis);
-        const double sampled = detail::sampled_jerk(axis, segment_s);
-        const bool binds = axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < sampled;
-        const double jerk = binds ? axis.max_jerk_mm_s3 : sampled;
         const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
         if (limits.jerk_limited && jerk_noise > 0.25 * jerk) {
             return LimitError::period_too_short;
         }
         limits.jerk_mm_s3[k] = from_double<S>(jerk * (usable - detail::jerk_reserve) - jerk_noise);
+        if (limits.jerk_limited) {
+            limits.refinement.bend_mm_s2[k] = limits.acceleration_mm_s2[k];
+            limits.refinement.error_mm_s3[k] = from_double<S>(detail::shape_share / detail::third_per_second * jerk);
+        }
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.usable = from_double<S>(usable);
@@ -331,12 +358,13 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     limits.segments_per_sample = n;
     Refinement<S>& refinement = limits.refinement;
     refinement.axes = settings.axes;
-    refinement.longest_mm = from_double<S>(longest);
     refinement.max_feed_mm_s = limits.feed_mm_s;
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
-    refinement.whole_lines = !(smoothest > 0.0);
+    refinement.whole_lines = !limits.jerk_limited ? WholeLines::all
+                             : in_double          ? WholeLines::between_stops
+                                                  : WholeLines::none;
     if (smoothest > 0.0) {
         refinement.finest_grade_log2 = 5;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
