@@ -19,6 +19,8 @@ constexpr float finest<float> = 16.0F;
 // 3.6 grades.
 constexpr double slow_grades = 3.6;
 
+constexpr double long_mm = 64.0; // of a piece that hardly bends
+
 constexpr double shortest_reach = 0.01 / 5.9; // of sqrt(J / v) L over v, where J is 5.9^2 Refinement::error_mm_s3
 
 } // namespace
@@ -108,6 +110,9 @@ bool ArcLength<S>::bends_too_much() const noexcept {
 // jerk changes that speed by itself, sqrt(v^3 / J): nothing has to change so fast.
 template <Scalar S>
 bool ArcLength<S>::errs_too_much() const noexcept {
+    if (current().degree == 1 || m_.length_mm > literal<S>(long_mm)) {
+        return false;
+    }
     S speed_sq = feed_mm_s_ * feed_mm_s_;
     for (const unsigned k : indices(current().axes)) {
         const S bend = lengthened<S>(PieceMeasure<S>::bound(m_.second, k));
@@ -157,7 +162,10 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return Verdict::coarse;
     }
     // For a piece that bends more, even the slowest speed of a plan is too fast.
-    return lengthened<S>(m_.sharpest_bend(axes)) < refinement_.sharpest * m_.length_mm ? Verdict::fine : Verdict::cusp;
+    // A long one turns by less than that allows, and the product would not fit.
+    const bool flat = m_.length_mm > literal<S>(long_mm) ||
+                      lengthened<S>(m_.sharpest_bend(axes)) < refinement_.sharpest * m_.length_mm;
+    return flat ? Verdict::fine : Verdict::cusp;
 }
 
 template <Scalar S>

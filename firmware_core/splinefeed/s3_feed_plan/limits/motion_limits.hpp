@@ -147,6 +147,12 @@ constexpr double longest_way_mm(double error, double share, double acceleration,
     return length < 0.0625 ? 0.0625 : length > most ? most : length;
 }
 
+/// The longest way of an axis in a cell where rounding does not limit it: its acceleration times that fits in Fixed.
+constexpr double longest_in_double(const AxisSettings& axis) noexcept {
+    const double fits = 3.2e7 / axis.larger_acceleration_mm_s2();
+    return fits < 1024.0 ? fits : 1024.0;
+}
+
 /// Feed segments per sample period (1, 2, 4 or 8) that keep the smoothing of the path, T^2 |A| / 6, below 0.35 um.
 constexpr int segments_per_sample(double period_s, double acceleration_sq) noexcept {
     int n = 1;
@@ -301,7 +307,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         const double jerk = binds ? axis.max_jerk_mm_s3 : most_jerk;
         const double longest = detail::longest_way_mm(
             resolution, detail::rounding_share<S>, axis.smaller_acceleration_mm_s2(), settings.max_feed_mm_s,
-            limits.jerk_limited ? jerk : 0.0, segment_s, in_double ? 1024.0 : 16.0);
+            limits.jerk_limited ? jerk : 0.0, segment_s, in_double ? detail::longest_in_double(axis) : 16.0);
         limits.refinement.longest_mm[k] = from_double<S>(longest);
         const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
