@@ -106,7 +106,8 @@ bool ArcLength<S>::bends_too_much() const noexcept {
 // jerk changes that speed by itself, sqrt(v^3 / J): nothing has to change so fast.
 template <Scalar S>
 bool ArcLength<S>::errs_too_much() const noexcept {
-    if (current().degree == 1 || m_.length_mm > literal<S>(long_mm)) {
+    const bool jerk_limited = refinement_.error_mm_s3[0] > S{};
+    if (!jerk_limited || current().degree == 1 || m_.length_mm > literal<S>(long_mm)) {
         return false;
     }
     S speed_sq = feed_mm_s_ * feed_mm_s_;
