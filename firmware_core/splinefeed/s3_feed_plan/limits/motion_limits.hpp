@@ -97,6 +97,17 @@ constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexce
     return jerk < 1073741824.0 ? jerk : 1073741824.0; // above every limit, and in the range of a Fixed
 }
 
+/// The jerk limit of an axis, or the largest jerk that it can have where no limit binds.
+constexpr double planned_jerk(const AxisSettings& axis, double segment_s) noexcept {
+    const double most = sampled_jerk(axis, segment_s);
+    return axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < most ? axis.max_jerk_mm_s3 : most;
+}
+
+/// A plan with a jerk limit has moves in closed form between stops alone; in Fixed rounding needs shorter cells.
+constexpr WholeLines whole_lines(bool jerk_limited, bool in_double) noexcept {
+    return !jerk_limited ? WholeLines::all : in_double ? WholeLines::between_stops : WholeLines::none;
+}
+
 /// Rounding of a position by e becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
     return 4.0 * error_mm / (segment_s * segment_s);
@@ -292,7 +303,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     const double segment_s = period_s / n;
     const double smoothest = detail::smallest_binding_jerk(settings, segment_s);
     limits.jerk_limited = smoothest > 0.0;
-    limits.sampled = limits.jerk_limited && sampled == SampledIn::float64 ? SampledIn::float64 : SampledIn::scalar;
+    limits.sampled = limits.jerk_limited ? sampled : SampledIn::scalar;
     const bool in_double = limits.jerk_limited && (std::same_as<S, double> || sampled == SampledIn::float64);
     const double resolution = in_double ? detail::parameter_error_in_double : detail::parameter_error<S>;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
@@ -302,9 +313,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30). With a
         // jerk limit v^2 is a parabola of s, and the parameter is the sum of a series.
         const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * resolution;
-        const double most_jerk = detail::sampled_jerk(axis, segment_s);
-        const bool binds = axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < most_jerk;
-        const double jerk = binds ? axis.max_jerk_mm_s3 : most_jerk;
+        const double jerk = detail::planned_jerk(axis, segment_s);
         const double longest = detail::longest_way_mm(
             resolution, detail::rounding_share<S>, axis.smaller_acceleration_mm_s2(), settings.max_feed_mm_s,
             limits.jerk_limited ? jerk : 0.0, segment_s, in_double ? detail::longest_in_double(axis) : 16.0);
@@ -368,9 +377,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
-    refinement.whole_lines = !limits.jerk_limited ? WholeLines::all
-                             : in_double          ? WholeLines::between_stops
-                                                  : WholeLines::none;
+    refinement.whole_lines = detail::whole_lines(limits.jerk_limited, in_double);
     if (smoothest > 0.0) {
         refinement.finest_grade_log2 = 5;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
