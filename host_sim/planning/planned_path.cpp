@@ -62,9 +62,9 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
 }
 
 std::size_t read_window(std::string_view text) {
-    const auto cells = read_whole<std::size_t>(text, 10, 1000000);
+    const auto cells = read_whole<std::size_t>(text, 10, longest_window);
     if (!cells) {
-        throw UsageError("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text));
+        throw UsageError("--window {}: it must be a whole number from 10 to {}", in_quotes(text), longest_window);
     }
     return *cells;
 }

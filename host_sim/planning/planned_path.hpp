@@ -29,7 +29,9 @@ struct PlannerChoice {
     }
 };
 
-/// The look-ahead of --window, 10 to 1000000 cells. Throws UsageError.
+inline constexpr std::size_t longest_window = 1'000'000; ///< cells
+
+/// The look-ahead of --window, 10 to longest_window cells. Throws UsageError.
 [[nodiscard]] std::size_t read_window(std::string_view text);
 
 /// The only door between the scalar of a plan and what lies behind it: one virtual call a segment. Steering and answers

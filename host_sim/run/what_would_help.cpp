@@ -15,7 +15,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double raised = 1.1;
-constexpr std::size_t longer_window = 4;
+constexpr std::size_t times_longer = 4;      // a window
 constexpr std::uint64_t most_moves = 10'000; // of a program that are planned again
 constexpr double may_bind = 0.85;            // of a limit: a plan that stays a little below it is bound by it
 
@@ -160,9 +160,9 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
         add(candidate.name, setting, 0, planned_s(arguments, higher, factor, out.moves, arguments.planner));
     }
     // A plan with a jerk limit does not know whether its window was too short for the path.
-    if (summary.window_limited.value_or(1) > 0) {
-        PlannerChoice longer = arguments.planner;
-        longer.window_cells *= longer_window;
+    PlannerChoice longer = arguments.planner;
+    longer.window_cells = std::min(longer.window_cells * times_longer, longest_window);
+    if (summary.window_limited.value_or(1) > 0 && longer.window_cells > arguments.planner.window_cells) {
         const double seconds = planned_s(arguments, of, 1.0, out.moves, longer);
         add(fmt::format("window of {} cells", longer.window_cells), {}, longer.window_cells, seconds);
     }

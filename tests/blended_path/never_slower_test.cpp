@@ -87,3 +87,35 @@ TEST_CASE("corners are stops where a limit across the path makes their blend slo
     require_limits(within, machine);
     CHECK(within.segments.size() == stops.segments.size());
 }
+
+TEMPLATE_TEST_CASE("what is no joint to a path is none to its plan", "[blended_path][limits]", double, Fixed) {
+    int made = 0;
+    for (std::uint64_t round = 0; round < 2000; ++round) {
+        Random random(7000 + round);
+        MachineSettings machine;
+        machine.axes = random.integer(1, max_axes);
+        machine.sample_period_us = random.integer(50, 4000);
+        machine.max_feed_mm_s = random.decades(1.0, 5000.0);
+        for (AxisSettings& axis : machine.axis) {
+            axis.max_velocity_mm_s = random.decades(1.0, 5000.0);
+            axis.max_acceleration_mm_s2 = random.decades(10.0, 1e6); // also one that the jerk lets nobody reach
+            axis.max_jerk_mm_s3 = random.chance(0.8) ? random.decades(1e3, 1e8) : 0.0;
+            axis.rotary = random.chance(0.2);
+        }
+        const auto limits = MotionLimits<TestType>::make(machine, SampledIn::float64);
+        if (!limits.has_value()) {
+            continue; // its numbers do not go together
+        }
+        ++made;
+        CAPTURE(round);
+        const SmoothJoint<double> smooth = path_rules(machine).smooth;
+        REQUIRE(smooth.jump <= to_double(limits->refinement.direction_jump));
+        const double fastest = to_double(limits->path_mm_s);
+        const double jerk =
+            detail::jump_in_jerk * smooth.bend_1_mm * fastest * fastest * to_double(limits->segments_per_s);
+        for (const unsigned k : indices(machine.axes)) {
+            REQUIRE((!limits->jerk_limited || jerk <= detail::jerk_reserve * to_double(limits->jerk_mm_s3[k])));
+        }
+    }
+    CHECK(made > 1000);
+}

@@ -34,13 +34,16 @@ void CurveSegment<S>::assign(const PerAxis<PerDegree<S>>& offsets) noexcept {
 
 template <Scalar S>
 void CurveSegment<S>::straighten() noexcept {
+    if (degree < 2) {
+        return;
+    }
     const auto n = static_cast<unsigned>(degree);
     PerAxis<S> direction{};
     for (const unsigned k : indices(axes)) {
         direction[k] = control[k][n] - control[k][0];
     }
     const S length = norm(direction, axes);
-    if (degree < 2 || !(scale2(length, unit_log2) > literal<S>(shortest_line_mm))) {
+    if (!(scale2(length, unit_log2) > literal<S>(shortest_line_mm))) {
         return;
     }
     for (const unsigned k : indices(axes)) {

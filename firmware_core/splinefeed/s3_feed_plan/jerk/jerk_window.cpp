@@ -78,11 +78,10 @@ SpeedState JerkWindow<S, R>::state(std::size_t i) const noexcept {
     return {here.b, here.b > 0.0 ? 2.0 * (here.middle_sq - here.b) / length : 0.0};
 }
 
-// Where q'' jumps by d, the acceleration jumps by d v^2, and a third difference over T^3 contains up to 3/4 of that
-// over T. A jump above the reserve of MotionLimits::make becomes a stop.
+// Where q'' jumps by d, the acceleration jumps by d v^2. A jump above the reserve of MotionLimits::make becomes a stop.
 template <Scalar S, Floating R>
 bool JerkWindow<S, R>::bend_jumps(std::size_t i) const noexcept {
-    const R per_s = R(0.75) * segments_per_s_;
+    const R per_s = R(detail::jump_in_jerk) * segments_per_s_;
     const JerkCell<R> before = limits_of(i - 1);
     const JerkCell<R> after = limits_of(i);
     const R noise = R(bend_noise<S, R>) / smaller(before.length_mm, after.length_mm);

@@ -4,7 +4,7 @@
 
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s1_blended_path/path_rules.hpp"
-#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_timing.hpp"
 
 namespace splinefeed {
 
@@ -48,19 +48,15 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
     return {acceleration / (slow * slow), 1.6, 0.0};
 }
 
-/// Half of the jumps of direction and curvature that the limits tolerate at a joint at any speed (Refinement and
-/// JerkWindow); the other half is rounding's.
+/// Half of the jumps of direction and curvature that a plan tolerates at a joint at any speed
+/// (Refinement::direction_jump, JerkWindow); the other half is rounding's.
 [[nodiscard]] constexpr SmoothJoint<double> smooth_joint(const MachineSettings& machine) noexcept {
-    const AxisTotals totals = axis_totals(machine);
-    const double period_s = machine.sample_period_us * 1e-6;
-    const int n = machine.segments_per_sample > 0 ? machine.segments_per_sample
-                                                  : detail::segments_per_sample(period_s, totals.acceleration_sq);
-    const double segment_s = period_s / n;
-    const double speed = larger(machine.max_feed_mm_s, 1e-3);
-    SmoothJoint<double> out;
-    out.jump = smaller(out.jump, 0.5 * detail::corner_share * totals.softest * segment_s / speed + 1e-9);
-    out.bend_1_mm = 0.5 * detail::jerk_reserve * totals.smoothest * segment_s / (0.75 * speed * speed);
-    return out;
+    if (!(machine.max_feed_mm_s > 0.0)) {
+        return {}; // of no machine yet
+    }
+    const MachineTiming timing(machine);
+    const double most = SmoothJoint<double>{}.jump;
+    return {smaller(most, 0.5 * timing.tolerated_turn() + 1e-9), 0.5 * timing.tolerated_bend()};
 }
 
 /// What a TolerancePath has to know of a machine. Only with a jerk limit do jumps of the curvature cost time. Without

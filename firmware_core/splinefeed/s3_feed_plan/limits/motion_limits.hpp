@@ -8,6 +8,7 @@
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_timing.hpp"
 
 #include <cstdint>
 
@@ -87,22 +88,6 @@ inline constexpr double jump_share = 4e-5;
 template <>
 inline constexpr double jump_share<float> = 1e-2;
 
-/// The same part for joints whose change of direction is tolerated (Refinement::direction_jump).
-inline constexpr double corner_share = 2e-5;
-
-/// The largest jerk that the emitted motion can have, whatever is planned. In a segment it goes at most from one
-/// acceleration to the opposite one (feed.md, step 7 of the proof). A jerk limit above it does not bind.
-constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexcept {
-    const double jerk = (axis.max_acceleration_mm_s2 + axis.braking_mm_s2()) / segment_s;
-    return jerk < 1073741824.0 ? jerk : 1073741824.0; // above every limit, and in the range of a Fixed
-}
-
-/// The jerk limit of an axis, or the largest jerk that it can have where no limit binds.
-constexpr double planned_jerk(const AxisSettings& axis, double segment_s) noexcept {
-    const double most = sampled_jerk(axis, segment_s);
-    return axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < most ? axis.max_jerk_mm_s3 : most;
-}
-
 /// A plan with a jerk limit has moves in closed form between stops alone; in Fixed rounding needs shorter cells.
 constexpr WholeLines whole_lines(bool jerk_limited, bool in_double) noexcept {
     return !jerk_limited ? WholeLines::all : in_double ? WholeLines::between_stops : WholeLines::none;
@@ -113,25 +98,11 @@ constexpr double acceleration_noise(double error_mm, double segment_s) noexcept 
     return 4.0 * error_mm / (segment_s * segment_s);
 }
 
-/// The part of a jerk limit that planning leaves for jumps of the curvature.
-inline constexpr double jerk_reserve = 5e-4;
-
 /// The part of a jerk limit that the shape of a cell may be off by.
 inline constexpr double shape_share = 0.15;
 
 /// The error of the third derivative of a shape, times L^2, over AxisShape::error_bound (JerkWindow: ripple / 2).
 inline constexpr double third_per_second = 5.2;
-
-/// The smallest jerk limit that binds; 0: none does.
-constexpr double smallest_binding_jerk(const MachineSettings& settings, double segment_s) noexcept {
-    double smallest = 0.0;
-    for (const unsigned k : indices(settings.axes)) {
-        const double jerk = settings.axis[k].max_jerk_mm_s3;
-        const bool binds = jerk > 0.0 && jerk < sampled_jerk(settings.axis[k], segment_s);
-        smallest = binds && !(smallest > 0.0 && smallest < jerk) ? jerk : smallest;
-    }
-    return smallest;
-}
 
 /// Rounding of a position by e becomes the jerk 8 e / T^3 in the third difference.
 constexpr double jerk_noise(double error_mm, double segment_s) noexcept {
@@ -164,19 +135,6 @@ constexpr double longest_in_double(const AxisSettings& axis) noexcept {
     return fits < 1024.0 ? fits : 1024.0;
 }
 
-/// Feed segments per sample period (1, 2, 4 or 8) that keep the smoothing of the path, T^2 |A| / 6, below 0.35 um.
-constexpr int segments_per_sample(double period_s, double acceleration_sq) noexcept {
-    int n = 1;
-    while (n < 8) {
-        const double t2 = period_s * period_s / (n * n);
-        if (t2 * t2 * acceleration_sq <= 36.0 * 0.35e-3 * 0.35e-3) { // squared, to avoid the root
-            break;
-        }
-        n *= 2;
-    }
-    return n;
-}
-
 /// Change of direction at a joint that counts as rounding, not as a corner.
 template <Scalar S>
 inline constexpr double direction_noise = 2e-9;
@@ -198,12 +156,6 @@ constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
 constexpr double chord_limit(double error_mm, double period_s) noexcept {
     const double limit = 8.0 * error_mm / (period_s * period_s);
     return limit < 1e9 ? limit : 1e9;
-}
-
-/// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity. At most the value whose
-/// square, times the numbers of a shape, fits in Fixed.
-constexpr double fastest_path(double feed, double turning_sq) noexcept {
-    return root_up_to(10000.0, feed * feed + turning_sq);
 }
 
 /// The range of full speed. The emitted motion averages the plan over two segments to either side, which the axis
@@ -291,17 +243,12 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
             return error;
         }
     }
-    const MachineSettings settings = within_jerk(stated);
-    const AxisTotals totals = axis_totals(settings);
-    const double softest = totals.softest;
-    limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
-    const double path =
-        limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, totals.turning_sq) : settings.max_feed_mm_s;
-    const double period_s = settings.sample_period_us * 1e-6;
-    const int n = settings.segments_per_sample > 0 ? settings.segments_per_sample
-                                                   : detail::segments_per_sample(period_s, totals.acceleration_sq);
-    const double segment_s = period_s / n;
-    const double smoothest = detail::smallest_binding_jerk(settings, segment_s);
+    const MachineTiming timing(stated);
+    const MachineSettings& settings = timing.settings;
+    const double softest = timing.totals.softest;
+    const double segment_s = timing.segment_s;
+    const double smoothest = timing.smoothest;
+    limits.mixed = timing.mixed;
     limits.jerk_limited = smoothest > 0.0;
     limits.sampled = limits.jerk_limited ? sampled : SampledIn::scalar;
     const bool in_double = limits.jerk_limited && (std::same_as<S, double> || sampled == SampledIn::float64);
@@ -365,12 +312,12 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
-    limits.path_mm_s = limits.mixed ? from_double<S>(path * usable) : limits.feed_mm_s;
+    limits.path_mm_s = limits.mixed ? from_double<S>(timing.path_mm_s * usable) : limits.feed_mm_s;
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
-    limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
-    limits.segments_per_s = from_double<S>(n / period_s);
-    limits.segment_ticks = static_cast<std::uint32_t>(settings.sample_period_us * ticks_per_us / n);
-    limits.segments_per_sample = n;
+    limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, timing.period_s));
+    limits.segments_per_s = from_double<S>(timing.segments / timing.period_s);
+    limits.segment_ticks = static_cast<std::uint32_t>(settings.sample_period_us * ticks_per_us / timing.segments);
+    limits.segments_per_sample = timing.segments;
     Refinement<S>& refinement = limits.refinement;
     refinement.axes = settings.axes;
     refinement.max_feed_mm_s = limits.feed_mm_s;
@@ -385,9 +332,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         refinement.curvature_change = scale2(refinement.curvature_change, -1); // a remainder that is proportional to
                                                                                // its cube
     }
-    // A jump of direction d needs the acceleration v d / T: tolerated below a share of the limit, plus rounding.
-    refinement.direction_jump =
-        from_double<S>(detail::corner_share * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
+    refinement.direction_jump = from_double<S>(timing.tolerated_turn()) + from_double<S>(detail::direction_noise<S>);
     return limits;
 }
 
