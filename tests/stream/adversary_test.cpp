@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("whatever is done to a motion at once, it keeps its limits an
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(300, 5000)); ++round) {
         Random random(seed + round);
         const Siege siege = random_siege<S>(random);
-        const auto limits = MotionLimits<S>::make(siege.machine);
+        const auto limits = limits_for<S, R>(siege.machine);
         if (!limits.has_value()) {
             continue;
         }

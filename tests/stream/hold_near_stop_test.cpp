@@ -130,9 +130,9 @@ void hold_near_stops(Random& random, bool jerk_limited, int& holds) {
     MachineSettings machine;
     do {
         machine = machine_for(random, jerk_limited, axes);
-    } while (!MotionLimits<S>::make(machine).has_value());
+    } while (!limits_for<S, R>(machine).has_value());
     const Program program = short_moves(random, axes);
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     const std::vector<CurveSegment<S>> path = path_of<S>(program);
     const Held plain = hold_at<S, R>(path, limits, most_planned, false, 0, most_planned);
     const std::size_t planned = plain.run.segments.size();

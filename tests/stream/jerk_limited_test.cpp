@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE("jerk-limited machines, splines and polylines", "[stream][jer
     require_random_machines(5000, rounds(40), 1, [](Random& random, const MachineSettings& machine) {
         const Program program = random_program(random, machine.axes);
         std::optional<Stream> stream;
-        if (MotionLimits<S>::make(machine).has_value()) {
+        if (limits_for<S, R>(machine).has_value()) {
             stream = stream_of<S, R>(program, machine, random.chance(0.5) ? 32 : 256);
             require_ends(*stream, machine, program);
         }
@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("jerk-limited machines and Bezier segments", "[stream][jerk]"
         std::optional<Stream> stream;
         // Soft axes on long paths: minutes of the machine's time
         const auto limits = MotionLimits<double>::make(machine);
-        if (MotionLimits<S>::make(machine).has_value() &&
+        if (limits_for<S, R>(machine).has_value() &&
             plan_of<double>(path, machine, 512).seconds() * limits->segments_per_s <= 1e5) {
             stream = stream_of<S, R>(path, machine, 256);
         }

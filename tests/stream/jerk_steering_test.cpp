@@ -47,7 +47,7 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
         const int pieces = random.chance(0.15) ? 3 : 8;
         const double size = random.decades(0.5, 50.0);
         const BezierPath path = random_path(random, axes, pieces, size, 0.15, 0.3);
-        if (!MotionLimits<S>::make(machine).has_value()) {
+        if (!limits_for<S, R>(machine).has_value()) {
             continue;
         }
         const std::size_t window = random.chance(0.5) ? 32 : 256;
@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[st
     using R = typename TestType::R;
     const MachineSettings machine = jerk_machine();
     const BezierPath path{line_shape(2, 1, {60.0, 0.0})};
-    const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
+    const double segment_s = limits_for<S, R>(machine).value().segment_ticks / 8e6;
     const SteeredRun plain = run_steered<S, R>(path, machine, 256, {});
     for (std::size_t at = 3; at < plain.segments.size(); at += 31) {
         // Where the machine is when the segment starts that the hold acts with, a segment ahead
@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE("a hold on a curve takes little more than braking with as muc
     const MachineSettings machine = jerk_machine();
     const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0),
                           cubic_shape(20.0, 30.0, 40.0, 30.0, 60.0, -20.0)};
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     const double segment_s = limits.segment_ticks / 8e6;
     const SteeredRun plain = run_steered<S, R>(path, machine, 256, {});
     const Track<S> track(path, machine);
@@ -134,7 +134,7 @@ TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[s
     using S = typename TestType::S;
     using R = typename TestType::R;
     const MachineSettings machine = jerk_machine();
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0), line_shape(2, 1, {20.0, 30.0})};
     for (const std::size_t at : {5U, 120U, 400U, 900U}) {
         CAPTURE(at);
@@ -171,7 +171,7 @@ TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk]
         axis.max_jerk_mm_s3 = 1e6;
     }
     const BezierPath path(3000, line_shape(2, 3, {0.003, 0.004}));
-    const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
+    const double segment_s = limits_for<S, R>(machine).value().segment_ticks / 8e6;
     for (const double ratio : {0.3, 0.6}) {
         const SteeredRun run = run_steered<S, R>(path, machine, 512, {{60, Order::override_feed, ratio}});
         require_limits(run, machine);

@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
         const std::size_t released = 8;
         const BezierPath known(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(released) - 1);
         const SteeredRun least = run_steered<S, R>(known, machine, 512, {});
-        const auto limits = MotionLimits<S>::make(machine).value();
+        const auto limits = limits_for<S, R>(machine).value();
         ListSource<S> list(segments_of<S>(path, {}), 0, 0);
         GatedSource<S> source(list, path.size());
         source.release(released);
@@ -191,7 +191,7 @@ TEMPLATE_TEST_CASE("a hold while the input is late stops the motion", "[stream][
         for (AxisSettings& axis : machines[i].axis) {
             axis.max_jerk_mm_s3 = i > 0 ? 5e4 : 0.0;
         }
-        const auto limits = MotionLimits<S>::make(machines[i]).value();
+        const auto limits = limits_for<S, R>(machines[i]).value();
         const BezierPath path(60, line_shape(2, 3, {3.0, 4.0})); // no stop of its own
         ListSource<S> list(segments_of<S>(path, {}), 0, 0);
         GatedSource<S> source(list, path.size());
@@ -231,7 +231,7 @@ TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move"
         for (const double before : {0.0, 5.0}) { // to a corner
             MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
             machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
-            const auto limits = MotionLimits<S>::make(machine).value();
+            const auto limits = limits_for<S, R>(machine).value();
             BezierPath known{line_shape(2, 3, {0.0, length})};
             if (before > 0.0) {
                 known.insert(known.begin(), line_shape(2, 3, {before, 0.0}));

@@ -263,7 +263,7 @@ struct Tally {
 template <Scalar S, Floating R, class Curve>
 void run_round(const Round& round, Random& random, Tally& tally) {
     const MachineSettings& machine = round.machine;
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     CurveOptions<S> options;
     options.axes = machine.axes;
     const auto feeds = feeds_of<S>(round.program, round.closed);

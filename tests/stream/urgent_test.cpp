@@ -137,7 +137,7 @@ TEMPLATE_TEST_CASE("a change of the steering ends the search of a plan that is m
     for (AxisSettings& axis : machine.axis) {
         axis.max_jerk_mm_s3 = 30'000.0;
     }
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     Random random(seed);
     const BezierPath path = random_path(random, 2, 6, 0.1, 0.0, 0.0);
     for (std::size_t every = 2; every < 30; ++every) { // segments between two changes

@@ -119,6 +119,12 @@ using DoubleInDouble = Planning<double, double>;
 using FixedInDouble = Planning<Fixed, double>;
 using FixedInFloat = Planning<Fixed, float>;
 
+/// The limits for a plan that is made in R: what the tool gives it.
+template <Scalar S, Floating R>
+auto limits_for(const MachineSettings& machine) {
+    return MotionLimits<S>::make(machine, std::same_as<R, double> ? SampledIn::float64 : SampledIn::scalar);
+}
+
 /// The pipeline that the limits ask for, with its memory. @param left_over  what every byte of that holds before; 0:
 /// what its constructors make of it
 template <Scalar S, Floating R = double>

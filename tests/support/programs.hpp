@@ -217,7 +217,7 @@ Stream stream_through(Curve& curve, const Program& program, const MotionLimits<S
 template <Scalar S, Floating R = double>
 Stream stream_of(const Program& program, const MachineSettings& machine, std::size_t window_size = 1024,
                  Random* interleaving = nullptr) {
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     CurveOptions<S> options;
     options.axes = program.axes;
     const std::size_t most = most_segments(least_seconds(program, machine), limits);
@@ -233,7 +233,7 @@ Stream stream_of(const Program& program, const MachineSettings& machine, std::si
 template <Scalar S, Floating R = double>
 Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& machine, std::size_t window_size = 1024,
                  std::uint64_t seed = 0, int patience = 0) {
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     const std::size_t most = most_segments(least_seconds(segments, machine), limits);
     ListSource<S> source(std::move(segments), seed, patience);
     AnyTrajectory<S, R> any(source, limits, window_size);

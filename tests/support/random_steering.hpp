@@ -46,7 +46,7 @@ std::optional<QuickRun<S>> random_quick_run(Random& random, int pieces, std::siz
     const int axes = random.integer(1, max_axes);
     MachineSettings machine = random_quick_machine(random, axes);
     change(machine);
-    const auto limits = MotionLimits<S>::make(machine);
+    const auto limits = limits_for<S, double>(machine);
     if (!limits.has_value()) {
         return std::nullopt;
     }

@@ -82,7 +82,7 @@ void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, St
 template <Scalar S, Floating R = double>
 SteeredRun run_steered(const BezierPath& path, const MachineSettings& machine, std::size_t window_size,
                        const std::vector<Event>& events) {
-    const auto limits = MotionLimits<S>::make(machine).value();
+    const auto limits = limits_for<S, R>(machine).value();
     ListSource<S> source(segments_of<S>(path, {}), 0, 0);
     AnyTrajectory<S, R> any(source, limits, window_size);
     SteeredRun run;
