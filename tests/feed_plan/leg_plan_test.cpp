@@ -196,3 +196,41 @@ TEMPLATE_TEST_CASE("a motion that is possible is found where nothing is known of
         CHECK(checked(leg, fast, 0, false) < slow_s);
     }
 }
+
+TEST_CASE("middles below their caps keep v^2 below the lines that the velocities allow, in every cell",
+          "[feed_plan][jerk]") {
+    std::mt19937 random{seed};
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    CAPTURE("seed 91");
+    double nearest = 0.0; // to the line at a node, of it
+    for (int trial = 0; trial < 500; ++trial) {
+        std::vector<LegNode<double>> nodes(13);
+        LegPlan<double> plan(nodes);
+        plan.begin({0.0, 0.0});
+        std::vector<JerkCell<double>> cells(12);
+        double line = 100.0;
+        for (JerkCell<double>& cell : cells) {
+            cell.limits.axes = 1;
+            cell.limits.jerk_mm_s3[0] = cell.limits.acceleration_mm_s2[0] = 1e9;
+            cell.length_mm = std::exp2(-8.0 * unit(random));
+            cell.cap_sq = 1e9;
+            line = unit(random) < 0.2 ? 10.0 + 1000.0 * unit(random) : line; // the velocities need not be continuous
+            cell.most_sq = {line, line * (0.6 + 0.8 * unit(random))};
+            line = cell.most_sq[1];
+            plan.add(cell, 0.0);
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            REQUIRE(nodes[i].cap_sq > 0.0);
+            REQUIRE(nodes[i].cap_sq <= 0.5 * (cells[i].most_sq[0] + cells[i].most_sq[1]));
+            if (i > 0) { // b there lies between the middles beside it
+                const double before = cells[i - 1].length_mm;
+                const double behind = cells[i].length_mm;
+                const double b = (behind * nodes[i - 1].cap_sq + before * nodes[i].cap_sq) / (before + behind);
+                const double most = std::min(cells[i - 1].most_sq[1], cells[i].most_sq[0]);
+                REQUIRE(b <= most * (1.0 + 1e-12));
+                nearest = std::max(nearest, b / most);
+            }
+        }
+    }
+    CHECK(nearest > 0.999);
+}
