@@ -3,7 +3,9 @@
 // one. It is the common part of G2Spline and G2Bezier, which differ in how neighbouring pieces are joined: the Joints.
 //
 // It commits control points, not segments or tangents. The joints are G2 (C2 if they are plain) for any control points.
-// So the limited look-ahead can only cause a small distance between curve and waypoint, never a kink.
+// So the limited look-ahead can only cause a small distance between curve and waypoint, never a kink. In float it
+// commits tangents where their ratios are those of the spans: control points beside a long span would be too coarse for
+// a short one.
 // Derivation: control_point_stream.cpp.
 #pragma once
 
@@ -36,6 +38,8 @@ struct SpansAround {
 template <Scalar S>
 struct PlainJoints {
     static constexpr bool weighted = false;
+    [[nodiscard]] static constexpr bool by_spans() noexcept { return true; }
+    [[nodiscard]] static constexpr S tension(S) noexcept { return S{}; }
     [[nodiscard]] static SpansAround<S> around(S outer_before, S before, S after, S outer_after) noexcept {
         return {outer_before, before, after, outer_after, S{}};
     }
@@ -54,6 +58,10 @@ struct BetaJoints {
     /// Whether a curve with these joints is stable: beta1 between 1/8 and 8, and beta1^3 + 1 <= 2 beta1^2 + 2 beta1 +
     /// beta2 / 2; without tension that is 0.382 to 2.618. Outside this range tangents grow from joint to joint.
     [[nodiscard]] Status check() const noexcept;
+    /// Whether neighbouring tangents are in the ratio of the spans.
+    [[nodiscard]] bool by_spans() const noexcept { return span_ratio; }
+    /// beta2 r omega / 2, which tension adds to the diagonal of a joint's row of tangents.
+    [[nodiscard]] S tension(S r_omega) const noexcept { return scale2(beta2, -1) * r_omega; }
     [[nodiscard]] SpansAround<S> around(S outer_before, S before, S after, S outer_after) const noexcept;
 
 private:
@@ -78,14 +86,23 @@ private:
     /// Row i of the eliminated system, delta_i = rho - gamma delta_{i+1}, and what the Bezier points need.
     struct Row {
         PerAxis<S> rho{};
-        PerAxis<S> delta{}; ///< committed offset of control point i from waypoint i
+        PerAxis<S> delta{}; ///< committed offset of control point i from waypoint i; by tangents: t_i
         S gamma{};
         S lambda{}; ///< weight of d_{i-1} in the Bezier point before knot i
-        S mu{};     ///< weight of d_{i+1} in the Bezier point after knot i
+        S mu{};     ///< weight of d_{i+1} in the Bezier point after knot i; by tangents: beta1 of knot i
         S omega{};  ///< weight of the Bezier point after knot i in the joint
     };
     [[nodiscard]] Row& row(std::uint64_t i) noexcept { return rows_[i % WaypointCurve<S>::capacity]; }
+    /// Whether tangents are committed instead of control points: in float, if their ratios are those of the spans.
+    [[nodiscard]] bool by_tangents() const noexcept {
+        if constexpr (std::same_as<S, float>) {
+            return joints_.by_spans();
+        } else {
+            return false;
+        }
+    }
 
+    void eliminate_tangent(std::uint64_t i) noexcept;
     bool eliminate_row(std::uint64_t i) noexcept;
     void commit(std::uint64_t end) noexcept;
     void close_seam(std::uint64_t i) noexcept;
