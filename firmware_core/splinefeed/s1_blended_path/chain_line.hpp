@@ -6,8 +6,8 @@
 
 namespace splinefeed {
 
-/// What rounding may take a point off a line of this length: 0.24 nm, half a unit of seven decimals on either side, and
-/// some digits of it; at most a nanometre, but in float. In chord units.
+/// What rounding may take a point off a line of this length. That is 0.24 nm, half a unit of seven decimals on either
+/// side, and some digits of the length. It is at most a nanometre, but in float. In chord units.
 template <Scalar S>
 [[nodiscard]] S line_rounding(S length) noexcept {
     const S least = literal<S>(0x1p-10);

@@ -17,10 +17,10 @@ struct IndexedMove {
 };
 
 /// Passes moves on, but for chains. Lines that are one, to rounding or a part of the tolerance, and have one feed, are
-/// passed on as one; where more than 64 follow each other, as one for each 32. Other chains are lines in continuous
-/// mode that meet in small angles. A chain becomes quintics that
-/// join each other with direction and curvature (`joined`). Each is within the tolerance of the programmed lines, which
-/// is checked before it is passed on. That is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
+/// passed on as one. Of more than 64 of them, each 32 are one. Other chains are lines in continuous mode that meet in
+/// small angles. A chain becomes quintics that join each other with direction and curvature (`joined`). Each is within
+/// the tolerance of the programmed lines, which is checked before it is passed on. That is chain_tolerance_mm, if it is
+/// less than tolerance_mm. What is left of the
 /// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
 /// and the chain ends there.
 ///

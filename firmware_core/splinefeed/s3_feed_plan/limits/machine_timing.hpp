@@ -28,7 +28,7 @@ constexpr double planned_jerk(const AxisSettings& axis, double segment_s) noexce
 /// The part of a jerk limit that planning leaves for jumps of the curvature.
 inline constexpr double jerk_reserve = 5e-4;
 
-/// The part of the limits that a plan leaves beside a kink, at most: a kink that needs more at the speed of the path is
+/// The part of the limits that a plan leaves beside a kink, at most. A kink that needs more at the speed of the path is
 /// passed more slowly, or is a stop.
 inline constexpr double kink_share = 0.15;
 
