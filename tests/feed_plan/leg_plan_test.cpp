@@ -151,6 +151,37 @@ TEMPLATE_TEST_CASE("legs along curves keep every limit, from rest and in motion"
     CHECK(moving_plans >= 39);
 }
 
+// A servo period may end behind each of them.
+TEST_CASE("a step of a search solves and proves a part of a long leg", "[feed_plan][jerk]") {
+    const Wave wave{{1.0, 0.5}, {1.0, 2.0}};
+    const JerkLimits limits{1000.0, 30000.0, 10000.0};
+    Planned<double> leg(leg_along(wave, 0.0, 170, 0.1, limits));
+    leg.plan.search();
+    Search search = leg.plan.step(); // the guess, of all of it
+    std::size_t solved = 0;          // most in a step
+    std::size_t proved = 0;
+    while (search == Search::running) {
+        const std::vector<LegNode<double>> before = leg.nodes;
+        search = leg.plan.step();
+        std::size_t gains = 0;
+        std::size_t multipliers = 0;
+        std::size_t shares = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const LegNode<double>& node = leg.nodes[i];
+            gains += node.gain != before[i].gain ? 1U : 0U;
+            multipliers += node.cap_multiplier != before[i].cap_multiplier ? 1U : 0U;
+            shares += node.jerk_share != before[i].jerk_share ? 1U : 0U;
+        }
+        solved = std::max({solved, gains, multipliers});
+        proved = std::max(proved, shares);
+    }
+    CHECK(search == Search::found);
+    CHECK(solved > 0);
+    CHECK(solved <= LegSolver<double>::most_nodes);
+    CHECK(proved > 0);
+    CHECK(proved <= LegPlan<double>::most_proved);
+}
+
 TEST_CASE("a straight line takes the time of the seven phases, and little more", "[feed_plan][jerk]") {
     const Wave line{{0.0, 0.0}, {1.0, 1.0}};
     const double share = std::cos(0.3); // of the axis that has most to do

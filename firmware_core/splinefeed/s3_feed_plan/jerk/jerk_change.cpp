@@ -360,7 +360,7 @@ void JerkChange<S, R>::to_wanted(WorkBudget& work) noexcept {
 template <Scalar S, Floating R>
 Search JerkChange<S, R>::search(WorkBudget& work) noexcept {
     while (running()) {
-        if (!work.take(static_cast<unsigned>(leg_->cells()))) {
+        if (!work.take(leg_->step_work())) {
             return Search::running;
         }
         const Search found = leg_->step();

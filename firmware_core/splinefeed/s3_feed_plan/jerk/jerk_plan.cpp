@@ -273,7 +273,7 @@ Pull JerkPlan<S, R>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept
         plan_.commit(plan_.planned());
     }
     if (plan_.committed() == 0 && !plan_.running()) {
-        const Pull pull = fill(underrun, work);
+        const Pull pull = work.spent() ? Pull::busy : fill(underrun, work);
         if (pull == Pull::busy && go_on(underrun)) {
             forward_step();
             chosen_ = true;

@@ -22,7 +22,7 @@ template <Scalar S, Floating R>
 using JerkSampled = std::conditional_t<std::same_as<R, double>, double, S>;
 
 /// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan<R>). In
-/// parts: a step of the search is as many steps of the budget as the leg has cells. A change of the
+/// parts: a step of the search is at most LegPlan's most_work steps of the budget. A change of the
 /// steering while the machine moves plans the path ahead two or three times (JerkChange).
 template <Scalar S, Floating R>
 class JerkPlan final : public SampledPlan<S, JerkSampled<S, R>> {

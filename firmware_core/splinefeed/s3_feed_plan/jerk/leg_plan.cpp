@@ -156,12 +156,27 @@ void LegPlan<R>::know(R middle_sq) noexcept {
 }
 
 template <Floating R>
-typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
-    Proof proof;
+void LegPlan<R>::begin_visit(Stage stage) noexcept {
+    stage_ = stage;
+    at_ = rests_ ? 1 : 0;
+    proof_ = {};
+}
+
+// The end of the next cells.
+template <Floating R>
+std::size_t LegPlan<R>::visit_some() noexcept {
+    at_ = smaller(at_ + most_proved, cells_ - 1);
+    return at_;
+}
+
+// Of some cells more. Whether these were the last ones.
+template <Floating R>
+bool LegPlan<R>::prove(R from, bool tighten) noexcept {
+    Proof& proof = proof_;
     // Behind a start in motion that uses all of a limit, the plan in force may be the only motion there is: nothing is
     // taken from its limits before it exceeds them.
     const std::size_t near_start = rests_ ? 0 : known_ / 4;
-    for (std::size_t i = rests_ ? 1 : 0; i + 1 < cells_; ++i) {
+    for (std::size_t i = at_, end = visit_some(); i < end; ++i) {
         LegNode<R>& node = nodes_[i];
         const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
         proof.most = larger(proof.most, larger(use.acceleration.most, use.jerk.most));
@@ -179,7 +194,7 @@ typename LegPlan<R>::Proof LegPlan<R>::prove(R from, bool tighten) noexcept {
         less(node.acceleration_share, use.acceleration);
         less(node.jerk_share, use.jerk);
     }
-    return proof;
+    return visited();
 }
 
 template <Floating R>
@@ -234,9 +249,9 @@ void LegPlan<R>::cap(std::size_t i, R cap_sq) noexcept {
 
 // The jerk grows with the power 3/2 of b: so much slower, what exceeds a limit in its middle would keep it.
 template <Floating R>
-void LegPlan<R>::slow_down() noexcept {
+bool LegPlan<R>::slow_down() noexcept {
     const std::size_t near_start = rests_ ? 1 : 1 + known_ / 4;
-    for (std::size_t i = near_start; i + 1 < cells_; ++i) {
+    for (std::size_t i = larger(at_, near_start), end = larger(visit_some(), i); i < end; ++i) {
         LegNode<R>& node = nodes_[i];
         const CellUse<R> use = cell_use(node, nodes_[i + 1], limits_);
         const R most = smaller(larger(use.acceleration.most, use.jerk.most), R(most_slowing));
@@ -244,6 +259,7 @@ void LegPlan<R>::slow_down() noexcept {
             node.cap_sq = smaller(node.cap_sq, R(margin_of_slowing) * node.middle_sq * power_two_thirds(R(1) / most));
         }
     }
+    return visited();
 }
 
 // Another attempt, if there is one: where the limits were kept at the nodes, with less speed between them; where they
@@ -251,12 +267,9 @@ void LegPlan<R>::slow_down() noexcept {
 template <Floating R>
 Search LegPlan<R>::fail() noexcept {
     const bool solved = stage_ != Stage::first;
-    stage_ = Stage::guess;
+    begin_visit(solved ? Stage::slow_down : Stage::guess);
     if (++lead_ == std::size(leads) || (!solved && (rests_ || known_ < 2))) {
         return Search::none;
-    }
-    if (solved) {
-        slow_down();
     }
     return Search::running;
 }
@@ -271,18 +284,24 @@ Search LegPlan<R>::step() noexcept {
         stage_ = Stage::first;
         return Search::running;
     case Stage::prove_first:
-        prove(R(almost<R>), true);
+        if (!prove(R(almost<R>), true)) {
+            return Search::running;
+        }
         solver_.begin({steps_again, R(rough<R> * 0.6), R(fine<R>), R(margin_again), true});
         stage_ = Stage::again;
         passes_ = 0;
         return Search::running;
     case Stage::prove:
-        if (prove(R(proved<R>), true).kept) {
+        if (!prove(R(proved<R>), true)) {
+            return Search::running;
+        }
+        if (proof_.kept) {
             return Search::found;
         }
         solver_.begin({steps_again, R(fine<R> * 2.0), R(fine<R>), R(margin_again), true});
         stage_ = Stage::again;
         return ++passes_ == most_passes ? fail() : Search::running;
+    case Stage::slow_down: stage_ = slow_down() ? Stage::guess : stage_; return Search::running;
     case Stage::brake: return solver_.step();
     case Stage::first:
     case Stage::again:
@@ -291,7 +310,7 @@ Search LegPlan<R>::step() noexcept {
     const Search solved = solver_.step();
     if (solved == Search::found) {
         motion_.settle(start_, true);
-        stage_ = stage_ == Stage::first ? Stage::prove_first : Stage::prove;
+        begin_visit(stage_ == Stage::first ? Stage::prove_first : Stage::prove);
     } else if (solved == Search::none && stage_ == Stage::again) {
         solver_.begin({steps_of_a_leg, R(in_motion), R(fine<R>), R(margin_again)});
         stage_ = Stage::anew;
@@ -323,11 +342,13 @@ bool LegPlan<R>::slow() noexcept {
         }
         motion_.evaluate();
         motion_.settle(start_, false);
-        const Proof proof = prove(R(proved<R>), false);
-        if (proof.kept) {
+        begin_visit(Stage::prove);
+        while (!prove(R(proved<R>), false)) {
+        }
+        if (proof_.kept) {
             return true;
         }
-        kappa = R(0.99) * power_two_thirds(R(1) / smaller(proof.most, R(1e4)));
+        kappa = R(0.99) * power_two_thirds(R(1) / smaller(proof_.most, R(1e4)));
     }
     return false;
 }

@@ -14,7 +14,9 @@ template <Floating R>
 class LegPlan {
 public:
     static constexpr std::size_t fewest_cells = LegSolver<R>::fewest_cells;
-    static constexpr double above_braking = 1.02; ///< caps are so much above a motion that brakes
+    static constexpr double above_braking = 1.02;  ///< caps are so much above a motion that brakes
+    static constexpr std::size_t most_proved = 12; ///< cells in a step, which takes as long as LegSolver's
+    static constexpr unsigned most_work = LegSolver<R>::most_nodes / 2; ///< of a step, in nodes that are solved for
 
     /// @param nodes  scratch, one more than the cells of a leg
     explicit LegPlan(std::span<LegNode<R>> nodes) noexcept : nodes_(nodes) {}
@@ -30,9 +32,13 @@ public:
 
     /// Begins the search for the fastest motion. @pre fewest_cells or more
     void search() noexcept;
-    /// A step of it, which visits every node about once. `none`: the nodes are not changed for the caller. Cost in all:
-    /// ten to twenty steps of LegSolver, and as many again for each attempt that fails.
+    /// A step of it. `none`: the nodes are not changed for the caller. Cost in all: ten to twenty steps of LegSolver,
+    /// and as many again for each attempt that fails.
     Search step() noexcept;
+    /// Of a step, in nodes.
+    [[nodiscard]] unsigned step_work() const noexcept {
+        return cells_ < most_work ? static_cast<unsigned>(cells_) : most_work;
+    }
     /// Begins the search for the motion that brakes as hard as it can, from the plan that is known: the same step(). It
     /// is not proved, and not for each_cell(). @pre it begins in motion, and something is known
     void brake() noexcept;
@@ -70,6 +76,7 @@ private:
         again, ///< solved with smaller shares of the limits, from where it is
         anew,  ///< the same with new multipliers
         prove,
+        slow_down, ///< caps that a motion which exceeds limits between the nodes would keep
         brake
     };
     struct Proof {
@@ -81,9 +88,12 @@ private:
     [[nodiscard]] std::span<LegNode<R>> leg() const noexcept { return nodes_.first(cells_ + 1); }
     void join() noexcept;
     void guess(double lead) noexcept;
-    void slow_down() noexcept;
+    void begin_visit(Stage stage) noexcept;
+    [[nodiscard]] std::size_t visit_some() noexcept;
+    [[nodiscard]] bool visited() const noexcept { return at_ + 1 >= cells_; }
+    bool slow_down() noexcept;
     Search fail() noexcept;
-    Proof prove(R from, bool tighten) noexcept;
+    bool prove(R from, bool tighten) noexcept;
 
     std::span<LegNode<R>> nodes_;
     LegMotion<R> motion_;
@@ -100,6 +110,8 @@ private:
     Stage stage_ = Stage::guess;
     std::size_t lead_ = 0; // number of the attempt
     int passes_ = 0;       // of solving again
+    std::size_t at_ = 0;   // cell that is proved or slowed down next
+    Proof proof_{};        // of the cells before it
 };
 
 } // namespace splinefeed

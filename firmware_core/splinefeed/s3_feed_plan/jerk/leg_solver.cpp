@@ -53,19 +53,6 @@ inline R of_gains(const LegNode<R>& node, R b, R slope) noexcept {
 
 } // namespace
 
-/// A step: of b and db/ds at a node, and of d2b/ds2 in the cell behind it.
-template <Floating R>
-struct LegSolver<R>::Change {
-    R b{}, slope{}, curvature{};
-};
-
-/// Cost of the rest of the way: second and first derivatives by the state at a node, and by u of the cell before it.
-template <Floating R>
-struct LegSolver<R>::Value {
-    R bb{}, bs{}, ss{}, b{}, s{};
-    R ub{}, us{}, uu{}, u{};
-};
-
 template <Floating R>
 typename LegSolver<R>::Change LegSolver<R>::first_change() const noexcept {
     const R b = first_ > 0 ? first_step_ : R(0);
@@ -212,10 +199,19 @@ inline void LegSolver<R>::pass_cell(std::size_t i, const Terms& terms, Value& va
 }
 
 template <Floating R>
-void LegSolver<R>::backward() noexcept {
+void LegSolver<R>::begin_step() noexcept {
+    ahead_ = false;
+    at_ = cells_;
+    value_ = {};
     gap_ = nominal_gap_ = R(0);
-    Value value;
-    for (std::size_t i = cells_; i-- > first_;) {
+}
+
+// The cost of the rest of the way, from the last node to the first, and the step there.
+template <Floating R>
+void LegSolver<R>::backward() noexcept {
+    Value value = value_;
+    const std::size_t end = at_ > first_ + most_nodes ? at_ - most_nodes : first_;
+    for (std::size_t i = at_; i-- > end;) {
         LegNode<R>& node = node_[i];
         const Row row = row_at(i);
         Terms terms;
@@ -254,18 +250,24 @@ void LegSolver<R>::backward() noexcept {
         value.uu = terms.uu[0];
         value.u = terms.u[0];
     }
+    at_ = end;
+    value_ = value;
+    if (at_ > first_) {
+        return;
+    }
     const R slope = R(detail::rise_from_rest) * node_[0].per_length;
     first_step_ = -(value.b + slope * value.s) / (value.bb + R(2) * slope * value.bs + slope * slope * value.ss);
+    ahead_ = true;
+    reach_ = {};
+    reach_.change = first_change();
 }
 
-// The step of every node and multiplier. Returns the inverse of the part of it that stays within all limits.
+// The step of every node and multiplier, from the first to the last. Whether it has come so far.
 template <Floating R>
-R LegSolver<R>::forward() noexcept {
-    R most{1};
-    Pair<R> most_jerk{R(1), R(1)};
-    Change change = first_change();
-    R before{};
-    for (std::size_t i = first_; i < cells_; ++i) {
+bool LegSolver<R>::forward() noexcept {
+    auto [most, most_jerk, before, change] = reach_;
+    const std::size_t end = smaller(at_ + most_nodes, cells_);
+    for (std::size_t i = at_; i < end; ++i) {
         LegNode<R>& node = node_[i];
         const Row row = row_at(i);
         const bool right = i + 1 < cells_;
@@ -284,7 +286,9 @@ R LegSolver<R>::forward() noexcept {
         before = change.curvature;
         change = next_change(i, change);
     }
-    return larger(most, larger_of<R>(most_jerk));
+    at_ = end;
+    reach_ = {most, most_jerk, before, change};
+    return at_ == cells_;
 }
 
 template <Floating R>
@@ -298,13 +302,20 @@ void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
     const R from_sq = effort.brakes_from_sq;
     brake_root_ = from_sq > R(0) ? R(1) / detail::hardware_square_root(from_sq) : R(0);
     steps_ = stuck_ = 0;
+    begin_step();
 }
 
 template <Floating R>
 Search LegSolver<R>::step() noexcept {
     SPLINEFEED_ASSERT(steps_ < effort_.steps);
-    backward();
-    const R inverse = forward();
+    if (!ahead_) {
+        backward();
+        return Search::running;
+    }
+    if (!forward()) {
+        return Search::running;
+    }
+    const R inverse = larger(reach_.most, larger_of<R>(reach_.most_jerk));
     stuck_ = inverse > R(1.0 / stuck_step) ? stuck_ + 1 : 0;
     if (!(gap_ > R(0)) || !(inverse < R(1e8)) || stuck_ > most_stuck) {
         return Search::none;
@@ -320,6 +331,7 @@ Search LegSolver<R>::step() noexcept {
     const R rest = R(1) - part;
     const R next = barrier_ * (gap_ / nominal_gap_) * larger(R(least_shrink), rest * rest);
     barrier_ = larger(effort_.accuracy, smaller(barrier_, next));
+    begin_step();
     return Search::running;
 }
 

@@ -30,6 +30,7 @@ template <Floating R>
 class LegSolver {
 public:
     static constexpr std::size_t fewest_cells = 3;
+    static constexpr std::size_t most_nodes = 48; ///< that a call visits
 
     LegSolver() noexcept = default;
     /// @param nodes  one more than cells; their geometry, guess and shares are set
@@ -40,16 +41,33 @@ public:
 
     /// From the motion of the nodes on, which may exceed limits.
     void begin(const LegEffort<R>& effort) noexcept;
-    /// One step. `found`: the limits are kept at every node, which have their b, slope and curvature. Cost: about 500
-    /// operations a node of three axes. @pre begin()
+    /// A part of a step. `found`: the limits are kept at every node, which have their b, slope and curvature. A step
+    /// visits every node twice, most_nodes in a call. Cost: about 500 operations a node of three axes in all. @pre
+    /// begin()
     Search step() noexcept;
 
 private:
     using Row = detail::LegRow<R>;
     using Terms = detail::LegTerms<R>;
-    struct Value;
-    struct Change;
+    /// A step: of b and db/ds at a node, and of d2b/ds2 in the cell behind it.
+    struct Change {
+        R b{}, slope{}, curvature{};
+    };
+    /// Cost of the rest of the way: second and first derivatives by the state at a node, and by u of the cell before
+    /// it.
+    struct Value {
+        R bb{}, bs{}, ss{}, b{}, s{};
+        R ub{}, us{}, uu{}, u{};
+    };
+    /// The step so far, and the inverse of the part of it that stays within all limits.
+    struct Reach {
+        R most{1};
+        Pair<R> most_jerk{R(1), R(1)};
+        R before{}; // curvature of the cell before
+        Change change{};
+    };
 
+    void begin_step() noexcept;
     Search finish() noexcept;
     [[nodiscard]] Row row_at(std::size_t i) const noexcept;
     R measure_excess(R margin) noexcept;
@@ -60,7 +78,7 @@ private:
     void add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept;
     void pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept;
     void backward() noexcept;
-    R forward() noexcept;
+    bool forward() noexcept;
 
     std::span<LegNode<R>> node_;
     std::size_t cells_ = 0;
@@ -71,10 +89,14 @@ private:
     R gap_{};           // duality gap
     R nominal_gap_{};   // what it would be on the central path
     R first_step_{};    // of b at the first node, from standstill
+    Value value_{};     // of the way behind node at_, on the way back
+    Reach reach_{};     // before it, on the way forward
+    std::size_t at_ = 0;
     LegEffort<R> effort_{};
     R brake_root_{}; // b^(-1/2) at the start of braking; 0: the motion is to be fast
     int steps_ = 0;
     int stuck_ = 0;
+    bool ahead_ = false; // on the way forward
 };
 
 } // namespace splinefeed

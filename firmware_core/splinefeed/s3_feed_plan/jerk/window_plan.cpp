@@ -51,7 +51,7 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
         add_cell();
     }
     while (search == Search::running) {
-        if (!work.take(static_cast<unsigned>(leg_->cells()))) {
+        if (!work.take(leg_->step_work())) {
             return Search::running;
         }
         search = leg_->step();

@@ -66,7 +66,7 @@ public:
     }
     /// Plans legs from the front on, up to the middle of the window at least, and commits them. false: the budget is
     /// spent; call again. Cost: a cell that comes into a leg is a step of the budget. A
-    /// step of a search is as many as the leg has cells.
+    /// step of a search is LegPlan's step_work().
     bool run(WorkBudget& work) noexcept;
 
     /// How often a leg was searched to its end.
