@@ -325,12 +325,8 @@ static void show_move(TP_STRUCT *tp) {
     status->requested_vel = q->vel * status->net_feed_scale;
     tp_show_speed(tp, status, out.speed);
     status->spindleSync = q->synced;
-    double left = 0.0;
-    for (int k = 0; k < tpc_axes; ++k) {
-        *tp_part(&status->dtg, k) = out.to_go[k];
-        left += k < 3 ? out.to_go[k] * out.to_go[k] : 0.0;
-    }
-    status->distance_to_go = sqrt(left); /* straight; on an arc it is more */
+    for (int k = 0; k < tpc_axes; ++k) *tp_part(&status->dtg, k) = out.to_go[k];
+    status->distance_to_go = out.left; /* straight; on an arc it is more */
 }
 
 static void override(struct tpc_input *in) {

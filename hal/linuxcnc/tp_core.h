@@ -50,7 +50,8 @@ struct tpc_input {
 struct tpc_output {
     double position[tpc_axes];
     double to_go[tpc_axes]; /* to the end of the move under way */
-    double speed;           /* of X Y Z, of the others where those stand */
+    double left, speed;     /* the straight way there, and the speed: of X Y Z; where those stand of U V W; where all of
+                               these stand of A B C */
     unsigned first, pushed, last; /* sequence numbers: the move under way, the next one that is planned, one behind the
                                      newest. Nothing is queued where first == last, and then the machine stands. */
     int in_step; /* single step, and the machine does not stand at the end of a move */

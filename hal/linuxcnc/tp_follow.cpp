@@ -18,6 +18,7 @@ constexpr unsigned most_left = 64; // moves that are over, in a period
 constexpr double rounding_s = 1e-12;
 constexpr double half_turn_rad = 3.141592653589793;
 constexpr double turns_back = 1e-6; // 1 + the cosine of the angle to the next move
+constexpr double shares = 1 << 20;  // steps of a feed's factor
 
 double seconds(const FeedSegment& segment) noexcept {
     return static_cast<double>(segment.duration_ticks) / ticks_per_s;
@@ -108,18 +109,42 @@ void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
     turn(at);
 }
 
+// The squares of the lengths of X Y Z, of A B C, of U V W.
+std::array<double, 3> TpMotion::ways_sq(const Mm& from, const Mm& to) const noexcept {
+    std::array<double, 3> out{};
+    for (const unsigned k : indices(machine_.axes)) {
+        out[static_cast<unsigned>(machine_.axis[k]) / 3U] += (to[k] - from[k]) * (to[k] - from[k]);
+    }
+    return out;
+}
+
+// Of the newest move: the core's feed is that of X Y Z U V W together, so it is larger than that of X Y Z alone. Equal
+// shares are equal feeds, whatever their last digits: a chain of lines has one feed.
+double TpMotion::feed_mm(const QueuedMove& move) const noexcept {
+    auto [xyz_sq, abc_sq, uvw_sq] = ways_sq(end_, move.to);
+    xyz_sq = move.element.shape == MoveShape::arc ? move.length_mm * move.length_mm - abc_sq - uvw_sq : xyz_sq;
+    const double beside = xyz_sq > 0.0 ? std::sqrt(1.0 + uvw_sq / xyz_sq) : 1.0;
+    const double rounded = std::floor(beside * shares + 0.5) / shares;
+    return xyz_sq > 0.0 || uvw_sq > 0.0 ? rounded * machine_.mm_per_unit : 1.0;
+}
+
+// What screens show of a way, in units.
+double TpMotion::told_way(const Mm& from, const Mm& to) const noexcept {
+    const auto [xyz_sq, abc_sq, uvw_sq] = ways_sq(from, to);
+    const double linear_sq = xyz_sq > 0.0 ? xyz_sq : uvw_sq;
+    return linear_sq > 0.0 ? std::sqrt(linear_sq) / machine_.mm_per_unit : std::sqrt(abc_sq);
+}
+
 void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
-    double linear_sq = 0.0;
-    double all_sq = 0.0;
+    Mm left{};
     for (const unsigned k : indices(machine_.axes)) {
         const double mm = scale(k);
-        const double moved = (at_[k] - before[k]) / mm;
-        all_sq += moved * moved;
-        linear_sq += k < 3 ? moved * moved : 0.0;
         output.position[machine_.axis[k]] = at_[k] / mm;
-        output.to_go[machine_.axis[k]] = first_ != last_ ? (move(first_).to[k] - at_[k]) / mm : 0.0;
+        left[k] = first_ != last_ ? move(first_).to[k] - at_[k] : 0.0;
+        output.to_go[machine_.axis[k]] = left[k] / mm;
     }
-    output.speed = std::sqrt(linear_sq > 0.0 ? linear_sq : all_sq) / machine_.period_s;
+    output.speed = told_way(before, at_) / machine_.period_s;
+    output.left = told_way(Mm{}, left);
     output.first = first_;
     output.pushed = pushed_;
     output.last = last_;

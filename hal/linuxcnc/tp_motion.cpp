@@ -146,23 +146,21 @@ int TpMotion::add(const tpc_move& from) noexcept {
     element.tolerance_mm = from.tolerance * machine_.mm_per_unit;
     element.chain_tolerance_mm = element.tolerance_mm * rules_.chain_quarters / 4.0;
     out.to = mm_of(from.to);
-    bool linear = from.arc != 0;
     for (const unsigned k : indices(machine_.axes)) {
         if (!position_representable(out.to[k]) || !position_representable(end_[k])) {
             return static_cast<int>(Error::position_out_of_range);
         }
         element.to[k] = position_from_mm(out.to[k]);
-        linear = linear || ((machine_.axis[k] < 3 || machine_.axis[k] > 5) && out.to[k] != end_[k]);
     }
     for (unsigned k = 0; from.arc != 0 && k < 3; ++k) {
         element.arc.centre[k] = position_from_mm(from.centre[k] * machine_.mm_per_unit);
         element.arc.normal[k] = from.normal[k];
     }
     element.arc.sweep_rad = from.sweep_rad;
-    element.feed_mm_s = from.rapid != 0 ? rapid_feed<double> : from.feed * (linear ? machine_.mm_per_unit : 1.0);
     if (const int error = measure(end_, out); error != 0) {
         return error;
     }
+    element.feed_mm_s = from.rapid != 0 ? rapid_feed<double> : from.feed * feed_mm(out);
     out.stands_before = from.stands_before != 0;
     out.pitch_mm = from.pitch * machine_.mm_per_unit;
     out.probes = from.probes != 0;

@@ -67,6 +67,9 @@ private:
         return machine_.axis[k] < 3 || machine_.axis[k] > 5 ? machine_.mm_per_unit : 1.0;
     }
     [[nodiscard]] Mm mm_of(const double* position) const noexcept;
+    [[nodiscard]] std::array<double, 3> ways_sq(const Mm& from, const Mm& to) const noexcept;
+    [[nodiscard]] double feed_mm(const QueuedMove& move) const noexcept;
+    [[nodiscard]] double told_way(const Mm& from, const Mm& to) const noexcept;
     [[nodiscard]] int measure(const Mm& from, QueuedMove& out) noexcept;
     void leave_path() noexcept;
     void forget() noexcept;

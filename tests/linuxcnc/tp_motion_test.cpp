@@ -86,6 +86,56 @@ TEST_CASE("whatever an operator does, and however late planning is, all limits a
     }
 }
 
+TEST_CASE("the feed, the speed and the way left are those of X Y Z, else of U V W, else of A B C", "[linuxcnc]") {
+    struct Way {
+        std::array<double, 9> to;
+        double length; // that the feed of 20 units/s is of, units
+        double jerk;
+        double mm_per_unit;
+    };
+    for (const Way& way :
+         {Way{{50.0, 0, 0, 0, 0, 0, 100.0}, 50.0, 0.0, 1.0}, Way{{30.0, 0, 40.0, 90.0, 0, 0, 5.0}, 50.0, 0.0, 1.0},
+          Way{{0, 0, 0, 90.0, 0, 0, 0, 50.0}, 50.0, 0.0, 1.0}, Way{{0, 0, 0, 50.0}, 50.0, 0.0, 1.0},
+          Way{{50.0, 0, 0, 0, 0, 0, 100.0}, 50.0, 30'000.0, 1.0}, Way{{20.0, 0, 0, 0, 0, 0, 10.0}, 20.0, 0.0, 25.4}}) {
+        CAPTURE(way.to, way.mm_per_unit);
+        tpc_machine machine = machine_of(6, 0.001, way.jerk);
+        machine.axis[4] = 6;
+        machine.axis[5] = 7;
+        machine.mm_per_unit = way.mm_per_unit;
+        Control control(machine);
+        tpc_move move{};
+        move.mode = TPC_EXACT_PATH;
+        std::copy(way.to.begin(), way.to.end(), move.to);
+        move.feed = 20.0;
+        REQUIRE(control.add(move) == 0);
+        double fastest = 0.0;
+        double first_left = 0.0;
+        while (control.out.first != control.out.last) {
+            control.period();
+            fastest = std::max(fastest, control.out.speed);
+            first_left = std::max(first_left, control.out.left);
+        }
+        CHECK(fastest == Approx(20.0).epsilon(1e-3));
+        CHECK(first_left == Approx(way.length).epsilon(1e-3));
+        CHECK(static_cast<double>(control.places.size()) * 0.001 == Approx(way.length / 20.0).margin(0.15));
+    }
+}
+
+TEST_CASE("the feed of an arc is that of X Y Z, whatever U does beside it", "[linuxcnc]") {
+    tpc_machine machine = machine_of(4, 0.001, 0.0);
+    machine.axis[3] = 6;
+    Control control(machine);
+    tpc_move circle = line_to(0.0, 0.0, 20.0);
+    circle.arc = 1;
+    circle.centre[0] = 10.0;
+    circle.normal[2] = 1.0;
+    circle.sweep_rad = 2.0 * 3.14159265358979323846;
+    circle.to[6] = 80.0;
+    REQUIRE(control.add(circle) == 0);
+    control.until_over();
+    CHECK(static_cast<double>(control.places.size()) * 0.001 == Approx(circle.sweep_rad * 10.0 / 20.0).margin(0.15));
+}
+
 TEST_CASE("the move under way is the one whose end is ahead, also on circles and in chains", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
