@@ -83,18 +83,31 @@ void module_axes(struct tpc_machine *machine) {
     machine->mm_per_unit = inch ? 25.4 : 1.0;
 }
 
+/* A limit above what the core takes is that. It is said once, in the unit of the INI file. */
+static double clamped(double value, double most, int axis, const char *key, double *said) {
+    const double units = axis >= 3 && axis <= 5 ? most : most / (inch ? 25.4 : 1.0);
+    if (!(value > units)) return value;
+    if (*said != value) {
+        rtapi_print("splinefeed_tp: [AXIS_%c]%s is %g: the planner takes at most %g\n", letters[axis], key, value, units);
+        *said = value;
+    }
+    return units;
+}
+
 /* One of X Y Z that the machine does not have never moves: it gets the limits of the first. */
 void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
                    double jerk_elsewhere) {
+    static double said[tpc_axes][3];
     const int first = first_axis();
     module_axes(machine);
     machine->period_s = period_s;
     for (int k = 0; k < machine->axes; ++k) {
         const int axis = k >= 3 || module_has_axis(k) ? machine->axis[k] : first;
-        machine->velocity[k] = velocity(axis);
-        machine->acceleration[k] = acceleration(axis);
+        double *const of = said[axis];
+        machine->velocity[k] = clamped(velocity(axis), TPC_MOST_VELOCITY, axis, "MAX_VELOCITY", &of[0]);
+        machine->acceleration[k] = clamped(acceleration(axis), TPC_MOST_ACCELERATION, axis, "MAX_ACCELERATION", &of[1]);
         const double jerk_of_axis = machine->jerk[axis < 3 ? axis : k];
-        machine->jerk[k] = jerk_of_axis > 0.0 ? jerk_of_axis : jerk_elsewhere;
+        machine->jerk[k] = clamped(jerk_of_axis > 0.0 ? jerk_of_axis : jerk_elsewhere, TPC_MOST_JERK, axis, "MAX_JERK", &of[2]);
     }
 }
 

@@ -12,6 +12,11 @@ extern "C" {
 
 enum { tpc_axes = 9, tpc_capacity = 2048 }; /* X Y Z A B C U V W; moves in the queue, a power of two */
 
+/* What the core takes of an axis at most, mm/s, mm/s^2, mm/s^3; degrees where it is rotary. */
+#define TPC_MOST_VELOCITY 9999.999
+#define TPC_MOST_ACCELERATION 999999.9
+#define TPC_MOST_JERK 999999999.0
+
 struct tpc_machine {
     int axes;                  /* that are planned, the first three are X Y Z */
     int axis[tpc_axes];        /* their places in X Y Z A B C U V W */

@@ -72,7 +72,7 @@ void set_directions(const PathElement<double>& element, const Mm& from, QueuedMo
 
 void TpMotion::create(const tpc_settings& settings, const tpc_machine& machine) noexcept {
     settings_ = settings;
-    settings_.ahead = smaller(larger(settings.ahead, fewest_ahead), static_cast<int>(ring_size));
+    settings_.ahead = smaller(larger(settings.ahead, fewest_ahead), most_ahead);
     machine_ = machine;
     rules_ = path_rules(settings_of(machine));
 }
@@ -201,6 +201,8 @@ const char* TpMotion::begin_path() noexcept {
         return describe(made.error());
     }
     limits_ = *made;
+    const double segments = machine_.period_s * ticks_per_s / limits_.segment_ticks;
+    per_period_ = larger(1U, static_cast<unsigned>(segments + 0.5));
     rules_ = path_rules(settings);
     TolerancePath<double>& path = path_.build(machine_.axes, rules_);
     PerAxis<Position> start{};
@@ -307,7 +309,7 @@ bool TpMotion::push_moves() noexcept {
 // No move came for a while: the path ends with the one that was kept. A plan with a jerk limit takes periods to be
 // made: half of the ring. The other one waits for moves as long as there are segments.
 bool TpMotion::released() noexcept {
-    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 2U) &&
+    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 1U + per_period_) &&
            idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
 }
 
@@ -333,8 +335,7 @@ bool TpMotion::knows_enough() noexcept {
     }
     const double feed = first.element.feed_mm_s;
     const double speed = feed == rapid_feed<double> ? std::sqrt(fastest_sq) : smaller(feed, std::sqrt(fastest_sq));
-    const double at_once_s =
-        ahead_ * (limits_.jerk_limited ? larger(machine_.period_s, least_segment_s) : machine_.period_s);
+    const double at_once_s = ahead_ * (static_cast<double>(limits_.segment_ticks) / ticks_per_s);
     const double soon = smaller(speed, at_once_s * smaller(acceleration, 0.5 * jerk * at_once_s));
     const double least_mm = 0.5 * soon * at_once_s + braking_mm(soon);
     return (behind_mm >= smaller(first.length_mm, braking_mm(speed)) && first.length_mm + behind_mm >= least_mm) ||
@@ -346,14 +347,15 @@ bool TpMotion::knows_enough() noexcept {
 void TpMotion::plan() noexcept {
     const long long end = settings_.now_ns() + share_ns_;
     const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
-    ahead_ = static_cast<unsigned>(move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead);
+    const int ahead = move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead;
+    ahead_ = per_period_ * static_cast<unsigned>(ahead);
     static_cast<void>(push_moves());
     bool drains = false;
     unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
         const bool moves = !trajectory_.at_rest();
-        const bool needed = ring_count_ < 2 && moves;
+        const bool needed = ring_count_ <= per_period_ && moves;
         if (over && !needed) {
             unfinished_ = true;
             return;
@@ -379,7 +381,7 @@ void TpMotion::plan() noexcept {
             }
             return;
         } else if (!push_moves() && !released()) {
-            if (ring_count_ > 1 || policy != UnderrunPolicy::wait || over) {
+            if (ring_count_ > per_period_ || policy != UnderrunPolicy::wait || over) {
                 return; // or there is time for moves to come
             }
             if (!has_now_ && !knows_enough()) {

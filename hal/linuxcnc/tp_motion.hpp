@@ -60,7 +60,8 @@ private:
     static constexpr std::size_t window_cells = SPLINEFEED_TP_WINDOW;
     static constexpr std::size_t jerk_cells = window_cells / 4;
     static constexpr std::size_t all_jerk_cells = jerk_cells + jerk_cells / 3;
-    static constexpr unsigned ring_size = 64;
+    static constexpr int most_ahead = 64;                  // periods
+    static constexpr unsigned ring_size = 8U * most_ahead; // a period has up to 8 segments (MachineTiming)
 
     [[nodiscard]] QueuedMove& move(unsigned n) noexcept { return queue_[n % tpc_capacity]; }
     [[nodiscard]] double scale(unsigned k) const noexcept {
@@ -103,7 +104,8 @@ private:
 
     tpc_settings settings_{};
     long long share_ns_ = 0;
-    unsigned ahead_ = 0; // segments that are ready now
+    unsigned ahead_ = 0;      // segments that are ready now
+    unsigned per_period_ = 1; // segments
     tpc_machine machine_{};
     tpc_figures figures_{};
     const char* error_ = nullptr; // of this period

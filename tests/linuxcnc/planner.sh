@@ -17,7 +17,8 @@ bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --che
 bench --planner stock,module
 bench --planner stock,module --inch
 bench --planner module --period 250
-/usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=2000000 \
+/usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_Z.MAX_VELOCITY=200000 --set AXIS_Z.MAX_ACCELERATION=20000000
+/usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=0.05 \
     --refused "max_acceleration_mm_s2 must lie between 0.1 and 1000000"
 /usr/bin/python3 bench/linuxcnc_spindle.py --planner module --check 20 --inch
 /usr/bin/python3 bench/linuxcnc_spindle.py --planner module --check 20 --jerk 30000 --steer 4

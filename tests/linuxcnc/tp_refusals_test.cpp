@@ -58,6 +58,23 @@ TEST_CASE("with limits that cannot be nothing moves, and with others the machine
     }
 }
 
+TEST_CASE("the largest limits that the module hands on are taken, in both units", "[linuxcnc]") {
+    for (const double mm : {1.0, 25.4}) {
+        for (const double jerk : {0.0, TPC_MOST_JERK / mm}) {
+            CAPTURE(mm, jerk);
+            tpc_machine machine = machine_of(3, 0.001, jerk);
+            machine.mm_per_unit = mm;
+            machine.velocity[1] = TPC_MOST_VELOCITY / mm;
+            machine.acceleration[1] = TPC_MOST_ACCELERATION / mm;
+            Control control(machine);
+            REQUIRE(control.add(line_to(5.0, 5.0, 50.0)) == 0);
+            control.until_over();
+            CHECK(control.out.position[1] == 5.0);
+            CHECK(control.figures().late == 0);
+        }
+    }
+}
+
 TEST_CASE("from a position that the core does not have no move begins", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     control.set(1.5e6);
