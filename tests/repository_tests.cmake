@@ -110,6 +110,7 @@ repository_test(gpio_vm_selftest LONG "a minute" ALONE gpio/vm/selftest.sh ${PRO
 repository_test(mutation LONG "8 minutes" tools/mutation.sh)
 repository_test(judge_linuxcnc_elements LONG "a minute" judge/linuxcnc_elements.py ${PROJECT_BINARY_DIR}/bin/splinefeed)
 repository_test(linuxcnc_planner LONG "four minutes" ALONE linuxcnc/planner.sh)
+repository_test(linuxcnc_upstream LONG "half an hour" ALONE linuxcnc/upstream.sh)
 if(SPLINEFEED_BOOST_INCLUDE)
     repository_test(senders_cncjs LONG "three minutes" ALONE senders/cncjs.sh ${PROJECT_BINARY_DIR})
     repository_test(senders_bcnc LONG "three minutes" ALONE senders/bcnc.sh ${PROJECT_BINARY_DIR}/bin/splinefeed)

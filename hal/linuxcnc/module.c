@@ -18,7 +18,8 @@ RTAPI_MP_ARRAY_INT(jerk, tpc_axes, "jerk limits in the order of axes, units/s^3;
 static int inch = 0;
 RTAPI_MP_INT(inch, "1: the machine's unit is the inch");
 static int tolerance_um = 50;
-RTAPI_MP_INT(tolerance_um, "tolerance of G64 without P, micrometres");
+RTAPI_MP_INT(tolerance_um, "tolerance of G64 without P, micrometres; 0: corners as fast as they can be");
+static const double least_um = 50.0; /* of curves of short lines, then */
 static int share = 10;
 RTAPI_MP_INT(share, "part of a servo period that planning may take, per cent, 1 to 90");
 static int ahead = 0;
@@ -52,7 +53,12 @@ int module_has_axis(int k) {
 
 static int first_axis(void) { return place_of(axes[0]) < 3 ? place_of(axes[0]) : 0; }
 
-double module_tolerance(void) { return tolerance_um * 1e-3 / (inch ? 25.4 : 1.0); }
+void module_tolerance(double programmed, struct tpc_move *move) {
+    const double mm = inch ? 25.4 : 1.0;
+    const double usual = (tolerance_um > 0 ? tolerance_um * 1e-3 : TPC_MOST_TOLERANCE) / mm;
+    move->tolerance = fmin(programmed > 0.0 ? programmed : usual, TPC_MOST_TOLERANCE / mm);
+    move->joins = programmed > 0.0 || tolerance_um > 0 ? 0.0 : least_um * 1e-3 / mm; /* short lines keep their shape */
+}
 
 static int has_jerk(void) {
     for (int i = 0; i < tpc_axes; ++i) {
@@ -171,7 +177,7 @@ static const char *wrong(void) {
         if (jerk[i] > 0 && i >= (int)strlen(axes)) return "jerk must not have more numbers than axes has letters";
     }
     if (inch != 0 && inch != 1) return "inch must be 0 or 1";
-    if (tolerance_um < 1 || tolerance_um > 100000) return "tolerance_um must be 1 to 100000";
+    if (tolerance_um < 0 || tolerance_um > 99999) return "tolerance_um must be 0 to 99999";
     if (share < 1 || share > 90) return "share must be 1 to 90";
     if (ahead != 0 && (ahead < 3 || ahead > 64)) return "ahead must be 3 to 64, or 0";
     if (idle_ms < 1 || idle_ms > 10000) return "idle_ms must be 1 to 10000";

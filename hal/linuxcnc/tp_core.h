@@ -16,6 +16,8 @@ enum { tpc_axes = 9, tpc_capacity = 2048 }; /* X Y Z A B C U V W; moves in the q
 #define TPC_MOST_VELOCITY 9999.999
 #define TPC_MOST_ACCELERATION 999999.9
 #define TPC_MOST_JERK 999999999.0
+/* The largest tolerance, mm. A corner is rounded within half of its moves, whatever the tolerance. */
+#define TPC_MOST_TOLERANCE 99.999
 
 struct tpc_machine {
     int axes;                  /* that are planned, the first three are X Y Z */
@@ -39,6 +41,7 @@ struct tpc_move {
     double to[tpc_axes];
     double centre[3], normal[3], sweep_rad;
     double tolerance, feed;
+    double joins; /* the tolerance where short lines become one curve; 0: its usual part of `tolerance` */
     double pitch; /* of a line that follows the spindle: units a revolution; 0: it does not. It begins at rest, after may_begin,
                      unless another one is before it that does not stop */
     int taps; /* it follows the spindle to its end and back to where it began: the next move begins there */

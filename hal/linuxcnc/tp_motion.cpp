@@ -144,7 +144,8 @@ int TpMotion::add(const tpc_move& from) noexcept {
     element.mode = mode_of(from.mode);
     element.stop_at_end = from.stops != 0;
     element.tolerance_mm = from.tolerance * machine_.mm_per_unit;
-    element.chain_tolerance_mm = element.tolerance_mm * rules_.chain_quarters / 4.0;
+    element.chain_tolerance_mm =
+        (from.joins > 0.0 ? from.joins * machine_.mm_per_unit : element.tolerance_mm) * rules_.chain_quarters / 4.0;
     out.to = mm_of(from.to);
     for (const unsigned k : indices(machine_.axes)) {
         if (!position_representable(out.to[k]) || !position_representable(end_[k])) {

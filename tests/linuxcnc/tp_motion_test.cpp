@@ -136,6 +136,36 @@ TEST_CASE("the feed of an arc is that of X Y Z, whatever U does beside it", "[li
     CHECK(static_cast<double>(control.places.size()) * 0.001 == Approx(circle.sweep_rad * 10.0 / 20.0).margin(0.15));
 }
 
+TEST_CASE("without a tolerance corners are as fast as they can be, and short lines keep their shape", "[linuxcnc]") {
+    const auto seconds = [](double tolerance, double joins) {
+        Control control(machine_of(3, 0.001, 0.0));
+        for (int i = 1; i <= 8; ++i) {
+            tpc_move side =
+                line_to(i % 4 == 1 || i % 4 == 2 ? 20.0 : 0.0, i % 4 == 2 || i % 4 == 3 ? 20.0 : 0.0, 100.0, tolerance);
+            side.joins = joins;
+            REQUIRE(control.add(side) == 0);
+        }
+        control.until_over();
+        CHECK(control.use() <= 1.0001);
+        return static_cast<double>(control.places.size()) * 0.001;
+    };
+    CHECK(seconds(TPC_MOST_TOLERANCE, 0.05) < 0.8 * seconds(0.05, 0.0));
+
+    Control control(machine_of(3, 0.001, 0.0));
+    constexpr int chords = 360;
+    constexpr double radius = 20.0;
+    for (int i = 1; i <= chords; ++i) {
+        const double angle = 2.0 * 3.14159265358979323846 * i / chords;
+        tpc_move chord = line_to(radius * (1.0 - std::cos(angle)), radius * std::sin(angle), 100.0, TPC_MOST_TOLERANCE);
+        chord.joins = 0.05;
+        REQUIRE(control.add(chord) == 0);
+    }
+    control.until_over();
+    for (const auto& place : control.places) {
+        REQUIRE(std::fabs(std::hypot(place[0] - radius, place[1]) - radius) < 0.06);
+    }
+}
+
 TEST_CASE("the move under way is the one whose end is ahead, also on circles and in chains", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
