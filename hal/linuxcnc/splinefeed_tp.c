@@ -174,7 +174,7 @@ static int append(TP_STRUCT *tp, const EmcPose *end, struct tpc_move *move, cons
     move->mode = tp->termCond == TC_TERM_COND_STOP    ? TPC_EXACT_STOP
                  : tp->termCond == TC_TERM_COND_EXACT ? TPC_EXACT_PATH
                                                       : TPC_CONTINUOUS;
-    if (move->mode == TPC_CONTINUOUS) module_tolerance(tp->tolerance, move);
+    if (move->mode == TPC_CONTINUOUS) module_tolerance(tp->tolerance, from->vel, acceleration_limit, move);
     move->rapid = from->canon == EMC_MOTION_TYPE_TRAVERSE && !synced;
     move->stands_before = stands_before(from, move->rapid, synced, move->pitch);
     move->stops = from->indexer != -1;

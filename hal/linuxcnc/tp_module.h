@@ -29,7 +29,8 @@ void module_axes(struct tpc_machine *machine);
 void module_limits(struct tpc_machine *machine, double period_s, double (*velocity)(int), double (*acceleration)(int),
                    double jerk_elsewhere);
 int module_has_axis(int k); /* k: a place in X Y Z A B C U V W */
-void module_tolerance(double programmed, struct tpc_move *move); /* of G64; programmed: its P in machine units, 0: it has none */
+/* Tolerances of G64. @param programmed its P in machine units, 0: it has none. @param speed of the move, units/s */
+void module_tolerance(double programmed, double speed, double (*acceleration)(int), struct tpc_move *move);
 void module_create(struct tpc_machine *machine);
 /* What a period with moves took. */
 void module_count(long long ns);

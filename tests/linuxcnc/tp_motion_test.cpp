@@ -166,6 +166,22 @@ TEST_CASE("without a tolerance corners are as fast as they can be, and short lin
     }
 }
 
+TEST_CASE("a short slow line keeps its feed, however short it is beside the tolerance", "[linuxcnc]") {
+    for (const double tolerance : {0.01, 0.05, 1.0}) {
+        for (const double length : {0.002, 0.005, 0.02, 0.1}) {
+            CAPTURE(tolerance, length);
+            Control control(machine_of(3, 0.001, 0.0));
+            REQUIRE(control.add(line_to(10.0, 0.0, 20.0, tolerance)) == 0);
+            REQUIRE(control.add(line_to(10.0 + length, 0.0, 0.1, tolerance)) == 0);
+            REQUIRE(control.add(line_to(20.0, 0.0, 20.0, tolerance)) == 0);
+            control.until_over();
+            const auto within = std::ranges::count_if(
+                control.places, [&](const auto& place) { return place[0] > 10.0 && place[0] < 10.0 + length; });
+            CHECK(static_cast<double>(within) * 0.001 == Approx(length / 0.1).margin(0.002));
+        }
+    }
+}
+
 TEST_CASE("the move under way is the one whose end is ahead, also on circles and in chains", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
     REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);

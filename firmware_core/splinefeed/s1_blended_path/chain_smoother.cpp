@@ -106,13 +106,15 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
         return false;
     }
     const S before = points_[points_.last()].chord;
+    if (too_short(length) && !element.has_feed_of(end_)) {
+        return false; // it would be left out, and its feed with it
+    }
     const S longer = larger(length, before);
     for (const unsigned k : indices(points_.axes())) {
         direction[k] = direction[k] - direction_[k];
     }
     const S turn = norm(direction, points_.axes());
-    if (turn * length < literal<S>(left_out) * tolerance_ && too_short(length) && element.passes_end() &&
-        element.has_feed_of(end_)) {
+    if (turn * length < literal<S>(left_out) * tolerance_ && too_short(length) && element.passes_end()) {
         return true;
     }
     if (!rounds) { // one line, or none
