@@ -14,24 +14,6 @@ namespace {
 
 constexpr std::uint32_t seed = 51;
 
-/// The largest entry that leaves an exit up to at_most, by bisection.
-Real largest_entry(const std::vector<HalfPlane>& planes, Real at_most, Real cap) {
-    const auto allowed = [&](Real entry) {
-        const Exits exits = exits_of(planes, entry, at_most);
-        return exits.low <= exits.high;
-    };
-    Real low = 0.0L;
-    Real high = cap;
-    if (allowed(high)) {
-        return high;
-    }
-    for (int step = 0; step < 100; ++step) {
-        const Real middle = (low + high) / 2.0L;
-        (allowed(middle) ? low : high) = middle;
-    }
-    return low;
-}
-
 /// Exits that a part of a cell allows for an entry, tried one by one. Below zero an exit is the slope of a line that
 /// ends before; what a shape leaves its polynomials by goes with |b|.
 class SmallestExits {
@@ -94,13 +76,13 @@ TEMPLATE_TEST_CASE("the polygon of a cell: its peak, its largest exits and entri
         const Cell<S> cell = random_cell(random, limits);
         const AccelerationBound<S> bound(cell, limits);
         const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
-        const PeakSpeeds<S> peak = bound.peak(cap);
+        const PeakSpeeds<S> peak = bound.peak({cap, cap});
         const Real entry = exact(peak.entry_sq);
         const Real scale = exact(cap);
         CAPTURE(round, axes, static_cast<double>(scale), static_cast<double>(entry));
         // The peak is reached, and nothing beyond it is.
         const auto planes = half_planes_of(cell, limits);
-        const Real best = largest_entry(planes, scale, scale);
+        const Real best = fastest_entry(planes, scale, scale);
         CAPTURE(static_cast<double>(best), to_double(peak.smallest_exit_sq));
         REQUIRE(std::fabs(entry - best) <= close * scale);
         bool more = peak.largest_exit_sq < cap; // a larger exit is allowed
@@ -119,7 +101,7 @@ TEMPLATE_TEST_CASE("the polygon of a cell: its peak, its largest exits and entri
         // Below it, what can be reached and from where.
         const S exit = peak.smallest_exit_sq * from_double<S>(random.between(0.0, 0.99));
         const Real from = exact(bound.largest_entry(exit, peak.entry_sq));
-        REQUIRE(std::fabs(from - std::min(entry, largest_entry(planes, exact(exit), scale))) <= close * scale);
+        REQUIRE(std::fabs(from - std::min(entry, entry_for(planes, exact(exit), scale))) <= close * scale);
         const S start = peak.entry_sq * from_double<S>(random.between(0.0, 1.0));
         const Exits reach = exits_of(planes, exact(start), scale);
         REQUIRE(std::fabs(exact(bound.largest_exit(start, cap)) - reach.high) <= close * scale);
@@ -136,7 +118,7 @@ TEST_CASE("in Fixed no half-plane is broken by rounding, not in its last digit",
         cell.length_mm = from_double<Fixed>(random.decades(1e-6, 1e-5));
         const AccelerationBound<Fixed> bound(cell, limits);
         const Fixed cap = from_double<Fixed>(random.decades(1e-3, 1.0));
-        const PeakSpeeds<Fixed> peak = bound.peak(cap);
+        const PeakSpeeds<Fixed> peak = bound.peak({cap, cap});
         const Fixed entry = peak.entry_sq * from_double<Fixed>(random.between(0.0, 1.0));
         const Fixed exit = bound.largest_exit(entry, cap);
         bounded += exit < cap ? 1 : 0;
@@ -169,7 +151,7 @@ TEMPLATE_TEST_CASE("the smallest exits of a cell and of parts of it, down to slo
         }
         const AccelerationBound<S> bound(cell, limits, stretch);
         const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
-        const S entry = bound.peak(cap).entry_sq * from_double<S>(random.between(0.0, 1.0));
+        const S entry = bound.peak({cap, cap}).entry_sq * from_double<S>(random.between(0.0, 1.0));
         const S at_most = cap * from_double<S>(random.between(0.0, 1.0));
         const S at_least = random.chance(0.5) ? at_most * from_double<S>(random.between(0.0, 0.5))
                                               : -(entry * from_double<S>(random.between(0.0, 1.0)));

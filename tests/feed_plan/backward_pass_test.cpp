@@ -18,7 +18,7 @@ std::vector<PlannedCell<S>> planned_cells(const BezierPath& path, const MotionLi
     for (const Cell<S>& cell : cells_of<S>(source, limits.refinement)) {
         PlannedCell<S> planned;
         planned.cell = cell;
-        planned.cap_sq = SpeedCaps<S>(limits).cap_sq(cell);
+        planned.cap = SpeedCaps<S>(limits).cap(cell);
         planned.peak = PeakSpeeds<S>::unknown();
         cells.push_back(planned);
     }
@@ -59,7 +59,7 @@ std::size_t peak_parts(const std::vector<PlannedCell<S>>& cells, const MotionLim
     std::size_t parts = 0;
     for (const PlannedCell<S>& here : cells) {
         for (auto peak = PeakSpeeds<S>::unknown(); !peak.known(); ++parts) {
-            AccelerationBound<S>(here.cell, limits).approach_peak(here.cap_sq, peak);
+            AccelerationBound<S>(here.cell, limits).approach_peak(here.cap, peak);
         }
     }
     return parts;

@@ -122,9 +122,9 @@ TEMPLATE_TEST_CASE("the parts of a bent cell are allowed", "[feed_plan][peak]", 
         if (!has_parts(cell)) {
             continue;
         }
-        const S cap = SpeedCaps<S>(limits).cap_sq(cell);
+        const S cap = SpeedCaps<S>(limits).cap(cell).least_sq();
         const AccelerationBound<S> bound(cell, limits);
-        const PeakSpeeds<S> peak = bound.peak(cap);
+        const PeakSpeeds<S> peak = bound.peak({cap, cap});
         const S entry = from_double<S>(random.between(0.0, 0.5)) * peak.entry_sq;
         const S exit = bound.largest_exit(entry, from_double<S>(random.between(0.0, 0.5)) * peak.largest_exit_sq);
         PeakTarget<S> target{S{}, entry, cap, larger(exit, bound.smallest_exit(entry, exit, cap))};

@@ -26,6 +26,8 @@ Cell<double> cell_along(double x, double y, double curvature_per_mm = 0.0) {
     cell.length_mm = 0.1;
     cell.tangent_max[0] = x;
     cell.tangent_max[1] = y;
+    cell.shape[0].tangent = {x, x};
+    cell.shape[1].tangent = {y, y};
     cell.curvature_max[0] = curvature_per_mm;
     cell.steady_mm_s = largest<double>();
     return cell;
@@ -33,7 +35,7 @@ Cell<double> cell_along(double x, double y, double curvature_per_mm = 0.0) {
 
 double cap_of(const MachineSettings& machine, const Cell<double>& cell) {
     const auto limits = MotionLimits<double>::make(machine).value();
-    return std::sqrt(SpeedCaps<double>(limits).cap_sq(cell));
+    return std::sqrt(SpeedCaps<double>(limits).cap(cell).least_sq());
 }
 
 } // namespace
@@ -52,6 +54,32 @@ TEST_CASE("the cap of a cell is the smallest of its limits", "[caps]") {
     CHECK(cap_of(machine, cell_along(0.6, 0.8, 0.5)) == Approx(20.0).epsilon(1e-4)); // sqrt(200 / 0.5)
 }
 
+TEST_CASE("below the cap an axis keeps its velocity all along a cell that turns, and uses it", "[caps]") {
+    MachineSettings machine = two_axes();
+    machine.max_feed_mm_s = 500.0;
+    machine.axis[1].max_velocity_mm_s = 500.0;
+    const auto limits = MotionLimits<double>::make(machine).value();
+    const double velocity = limits.velocity_mm_s[0];
+    for (const double to : {0.3, 0.45, 0.55, 0.6, 0.7, 0.8, -0.55}) {
+        const double from = to < 0.0 ? -0.6 : 0.6;
+        Cell<double> cell = cell_along(std::max(std::fabs(from), std::fabs(to)), 0.7);
+        cell.shape[0].tangent = {from, to};
+        cell.shape[0].bend.fill(2.0 * (to - from)); // q' is linear
+        const CapLine<double> cap = SpeedCaps<double>(limits).cap(cell);
+        CAPTURE(to, cap.entry_sq, cap.exit_sq);
+        double most = 0.0;
+        for (int i = 0; i <= 20; ++i) {
+            const double x = i / 20.0;
+            const double speed = std::sqrt(cap.entry_sq + x * (cap.exit_sq - cap.entry_sq));
+            most = std::max(most, std::fabs(from + x * (to - from)) * speed);
+        }
+        CHECK(most <= velocity * (1.0 + 1e-12));
+        CHECK(most >= velocity * (1.0 - 1e-12));
+        const double steep = std::fabs(to - from) / (0.5 * std::fabs(to + from));
+        CHECK((cap.entry_sq == cap.exit_sq) == (steep >= 0.5 || to == from));
+    }
+}
+
 TEST_CASE("in a turn too sharp for the polynomials of a cell, half of the acceleration is what bends", "[caps]") {
     MachineSettings machine = two_axes();
     machine.axis[0].max_braking_mm_s2 = 500.0; // the smaller one, whichever way the axis moves
@@ -65,7 +93,7 @@ TEST_CASE("what is wanted is the programmed feed, with its override, up to the c
     const auto limits = MotionLimits<double>::make(two_axes()).value();
     const SpeedCaps<double> caps(limits);
     Cell<double> cell = cell_along(0.6, 0.8);
-    const double cap = caps.cap_sq(cell);
+    const double cap = caps.cap(cell).least_sq();
     CHECK(caps.wanted_sq(cell, cap, {}) == cap);
     CHECK(caps.wanted_sq(cell, cap, {0.5}) == Approx(50.0 * 50.0).epsilon(1e-4));
     cell.feed_mm_s = 40.0;

@@ -29,6 +29,7 @@ SteeringTarget<S> aim_of(double from, double entry, double level, double exit, d
     return {.from = from_double<S>(from),
             .entry_sq = from_double<S>(entry),
             .max_steady_sq = from_double<S>(level),
+            .level_sq = from_double<S>(level),
             .exit_sq = from_double<S>(exit),
             .most_sq = from_double<S>(most),
             .known_sq = from_integer<S>(-1)};
@@ -46,6 +47,7 @@ public:
         SteeringTarget<S> aim;
         aim.entry_sq = entry_sq;
         aim.most_sq = most_sq;
+        aim.level_sq = cap_;
         aim.known_sq = from_integer<S>(-1);
         for (int profile_segments = 1;; ++profile_segments) {
             REQUIRE(profile_segments < 40);
@@ -209,7 +211,7 @@ TEMPLATE_TEST_CASE("what a profile_segment asks of the axes its cell allows, and
         // Some axis has inertia, as on every path
         cell.shape[0].tangent[0] = from_integer<Ratio<S>>(random.chance(0.5) ? 1 : -1);
         const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
-        const auto peak = AccelerationBound<S>(cell, limits).peak(cap);
+        const auto peak = AccelerationBound<S>(cell, limits).peak({cap, cap});
         // A part of the peak is allowed, as (0, 0) is; then every larger exit will do for most_sq
         const S share = from_double<S>(random.between(0.01, 0.98));
         const S least = share * peak.smallest_exit_sq;

@@ -24,7 +24,7 @@ struct Line {
         scratch.resize(nodes.size());
         window.emplace(limits, JerkStorage<double, double>{cells, nodes, scratch});
         for (const PlannedCell<double>& c : planned.cells) {
-            window->append(c.cell, c.cap_sq, c.cap_sq, c.exit_sq);
+            window->append(c.cell, c.cap.least_sq(), c.cap.least_sq(), c.exit_sq);
         }
         for (std::size_t i = 0; i < window->size(); ++i) {
             window->node(i).travel = Travel::line;

@@ -118,6 +118,71 @@ inline Exits exits_of(const std::vector<HalfPlane>& planes, Real entry_sq, Real 
     return exits;
 }
 
+/// The largest entry up to cap that leaves an exit up to at_most, by bisection.
+inline Real entry_for(const std::vector<HalfPlane>& planes, Real at_most, Real cap) {
+    const auto allowed = [&](Real entry) {
+        const Exits exits = exits_of(planes, entry, at_most);
+        return exits.low <= exits.high;
+    };
+    Real low = 0.0L;
+    Real high = cap;
+    if (allowed(high)) {
+        return high;
+    }
+    for (int step = 0; step < 100; ++step) {
+        const Real middle = (low + high) / 2.0L;
+        (allowed(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+/// Up to where a plan enters a cell: from its peak on, while a steep half-plane bounds the exits more than the others
+/// do, to where the two meet (acceleration_bound.cpp).
+inline Real fastest_entry(const std::vector<HalfPlane>& planes, Real entry_cap, Real exit_cap) {
+    const auto bound_at = [&](Real entry, bool steep) {
+        HalfPlane nearest{0.0L, 1.0L, exit_cap};
+        for (const HalfPlane& plane : planes) {
+            const bool is_steep = plane.exit < plane.entry / 8.0L;
+            if (plane.exit > 0.0L && is_steep == steep &&
+                (plane.limit - plane.entry * entry) / plane.exit <
+                    (nearest.limit - nearest.entry * entry) / nearest.exit) {
+                nearest = plane;
+            }
+        }
+        return nearest;
+    };
+    Real entry = entry_for(planes, exit_cap, entry_cap);
+    for (int step = 0; step < 100; ++step) {
+        const HalfPlane steep = bound_at(entry, true);
+        const HalfPlane other = bound_at(entry, false);
+        const Real meet = (steep.limit / steep.exit - other.limit / other.exit) /
+                          (steep.entry / steep.exit - other.entry / other.exit);
+        if (!(steep.entry > 0.0L && meet < entry)) {
+            break;
+        }
+        entry = std::max(meet, 0.0L);
+    }
+    return entry;
+}
+
+/// v^2 at both ends of a cell up to which an axis keeps its velocity: V^2 / U^2 lies above its tangent in the middle of
+/// the cell, with |q'| <= U.
+template <Scalar S>
+std::array<Real, 2> velocity_line(const Cell<S>& cell, unsigned axis, Real velocity) {
+    const AxisShape<S>& shape = cell.shape[axis];
+    const Real first = std::fabs(exact(shape.tangent[0]));
+    const Real last = std::fabs(exact(shape.tangent[1]));
+    const Real above =
+        std::max(std::fabs(exact(shape.tangent[0]) + exact(shape.bend[0]) / 6.0L) - (2.0L * first + last) / 3.0L,
+                 std::fabs(exact(shape.tangent[1]) - exact(shape.bend[2]) / 6.0L) - (first + 2.0L * last) / 3.0L);
+    const Real middle = (first + last) / 2.0L + 0.75L * std::max(above, 0.0L) + exact(shape.error_bound) / 4.0L;
+    const Real largest = exact(cell.tangent_max[axis]);
+    const bool bounded = middle >= largest || std::fabs(last - first) >= middle / 2.0L;
+    const Real speed_sq = std::pow(velocity / (bounded ? largest : middle), 2.0L);
+    const Real change = bounded ? 0.0L : (last - first) / middle * speed_sq;
+    return {speed_sq + change, speed_sq - change};
+}
+
 /// The part of the path's speed that the feed counts at most, from the Bezier points of q'.
 template <Scalar S>
 Real share_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
@@ -143,23 +208,25 @@ template <Scalar S>
 std::vector<Real> reachable_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits) {
     const std::size_t n = cells.size();
     const auto axes = static_cast<unsigned>(limits.axes);
-    std::vector<Real> cap(n);
+    std::vector<std::array<Real, 2>> cap(n);
+    std::vector<std::array<Real, 2>> machine_cap(n); // whatever is programmed
     for (std::size_t i = 0; i < n; ++i) {
         const Cell<S>& cell = cells[i].cell;
-        Real speed = exact(limits.feed_mm_s);
-        for (const Real own : {exact(cell.feed_mm_s), exact(cell.max_feed_mm_s)}) {
-            // A programmed feed gives up what the machine's does for rounding, but never more than half.
+        // A programmed feed gives up what the machine's does for rounding, but never more than half.
+        const auto up_to = [&](Real feed, Real own) {
             const Real usable = std::max(own * exact(limits.usable) - exact(limits.feed_noise_mm_s), own / 2.0L);
-            speed = own > 0.0L ? std::min(speed, usable) : speed;
-        }
-        speed = std::min(speed / share_of(cell, limits), exact(limits.path_mm_s));
-        speed = std::min(speed, exact(cell.steady_mm_s));
+            return own > 0.0L ? std::min(feed, usable) : feed;
+        };
+        const auto along_path = [&](Real feed) {
+            return std::min({feed / share_of(cell, limits), exact(limits.path_mm_s), exact(cell.steady_mm_s)});
+        };
+        const Real feed = up_to(exact(limits.feed_mm_s), exact(cell.max_feed_mm_s));
+        const Real fastest = along_path(feed); // whatever is programmed
+        const Real speed = along_path(up_to(feed, exact(cell.feed_mm_s)));
         Real bend_sq = 0.0L;
         Real cap_sq = 1e30L;
         for (unsigned k = 0; k < axes; ++k) {
-            const Real q1 = exact(cell.tangent_max[k]);
             const Real q2 = exact(cell.curvature_max[k]);
-            speed = q1 > 0.0L ? std::min(speed, exact(limits.velocity_mm_s[k]) / q1) : speed;
             if (2.0L * exact(cell.length_mm) * q2 > real(Cell<S>::sharp_turn)) {
                 cap_sq =
                     std::min(cap_sq, std::min(exact(limits.acceleration_mm_s2[k]), exact(limits.braking_mm_s2[k])) /
@@ -172,26 +239,26 @@ std::vector<Real> reachable_speeds(const std::vector<PlannedCell<S>>& cells, con
                 cap_sq = std::min(cap_sq, limit / std::sqrt(bend_sq));
             }
         }
-        cap[i] = std::max(std::min(cap_sq, speed * speed), 1e-6L);
+        std::array<Real, 2> most{std::min(cap_sq, fastest * fastest), std::min(cap_sq, fastest * fastest)};
+        for (unsigned k = 0; k < axes; ++k) {
+            if (fastest * exact(cell.tangent_max[k]) > exact(limits.velocity_mm_s[k])) {
+                const auto line = velocity_line(cell, k, exact(limits.velocity_mm_s[k]));
+                most = {std::min(most[0], line[0]), std::min(most[1], line[1])};
+            }
+        }
+        for (unsigned e = 0; e < 2; ++e) {
+            machine_cap[i][e] = std::max(most[e], 1e-6L);
+            cap[i][e] = std::max(std::min(most[e], speed * speed), 1e-6L);
+        }
     }
     std::vector<Real> largest(n + 1, 0.0L);
     for (std::size_t i = n; i-- > 1;) {
         const Cell<S>& cell = cells[i].cell;
         const Real beyond = largest[i + 1];
-        Real high = cells[i - 1].cell.stop_at_end ? 0.0L : std::min(cap[i - 1], cap[i]);
+        Real high = cells[i - 1].cell.stop_at_end ? 0.0L : std::min(cap[i - 1][1], cap[i][0]);
         const auto planes = half_planes_of(cell, limits);
-        const auto allowed = [&](Real entry) {
-            const Exits exits = exits_of(planes, entry, beyond);
-            return exits.low <= exits.high;
-        };
-        Real low = 0.0L;
-        if (!allowed(high)) {
-            for (int step = 0; step < 100; ++step) {
-                const Real middle = (low + high) / 2.0L;
-                (allowed(middle) ? low : high) = middle;
-            }
-            high = low;
-        }
+        high = std::min(high, fastest_entry(planes, machine_cap[i][0], machine_cap[i][1]));
+        high = std::min(high, entry_for(planes, beyond, high));
         largest[i] = high;
     }
     return largest;

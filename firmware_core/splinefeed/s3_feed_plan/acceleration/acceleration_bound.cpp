@@ -31,6 +31,11 @@
 // <= high(0). The peak is the root of low - high, found from above by Newton's steps from one pair of half-planes to
 // the next. Each step is a cut that holds for every point of P, so the steps end when no pair is violated; usually no
 // step is needed.
+//
+// Where an axis has no inertia, as one that has just begun to move, its half-plane bounds the entry, and the exit only
+// by its error: an entry that is slower by a thousandth may allow twice the exit. The fastest entry would be a trap. So
+// where an exit is bounded by such a steep half-plane, the entry is reduced by Newton's steps as well, to where another
+// one bounds the exit. P is cut there; it is convex all the same.
 #include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
 
 #include "splinefeed/number/instantiate.hpp"
@@ -42,6 +47,9 @@ namespace {
 // Each Newton step eliminates one half-plane, of which there are eight per axis. For six axes at most nine steps were
 // measured. Three of them cost no more than the other parts of a plan; most peaks need one.
 constexpr int steps_a_part = 3;
+
+// From this ratio of a half-plane's exit to its entry on, a slower entry makes more of the exit than it costs.
+constexpr int steep_log2 = -3;
 
 // The amount by which the entry is reduced if rounding hides the next step; it is doubled as often as needed.
 template <Scalar S>
@@ -219,21 +227,29 @@ S AccelerationBound<S>::reach_from_standstill(S at_most) const noexcept {
 }
 
 // The entry where two half-planes meet: their exits, of which that of the second is not smaller, cancel with the weight
-// 0 ... 1 of the second.
+// -1 ... 1 of the second.
 template <Scalar S>
 S AccelerationBound<S>::crossing_of(const Row& first, const Row& second) noexcept {
-    const R weight = absolute(first.exit) / DivisionBy<R>(absolute(second.exit));
-    const R entry = half(first.entry) + half(second.entry * weight);
-    return entry > R{} ? quotient_by_quarter(half(first.limit) + half(second.limit * weight), entry) : largest<S>();
+    const R share = absolute(first.exit) / DivisionBy<R>(absolute(second.exit));
+    const bool alike = first.exit > R{} && second.exit > R{};
+    const R weight = alike ? -share : share;
+    R entry = half(first.entry) + half(second.entry * weight);
+    S limit = half(first.limit) + half(second.limit * weight);
+    if (alike && entry < R{}) {
+        entry = -entry;
+        limit = -limit;
+    }
+    return entry > R{} ? quotient_by_quarter(limit, entry) : largest<S>();
 }
 
 // All exits from an entry up to a cap; none if low > high, and then no more than what shows it.
 template <Scalar S>
 auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRows>& rows) const noexcept -> Exits {
     const R one = from_integer<R>(1);
-    const S beyond = cap_sq + cap_sq;                                       // larger than every exit
-    const Row none{R{}, -one, S{}};                                         // exit >= 0
-    Exits out{S{}, cap_sq, none, {R{}, one, quarter_product(cap_sq, one)}}; // exit <= cap
+    const S beyond = cap_sq + cap_sq;                       // larger than every exit
+    const Row none{R{}, -one, S{}};                         // exit >= 0
+    const Row most{R{}, one, quarter_product(cap_sq, one)}; // exit <= cap
+    Exits out{S{}, cap_sq, cap_sq, none, most, most};
     for (const unsigned k : indices(cell_.axes)) {
         const AxisRows& axis = rows[k];
         const S entry_e = quarter_product(entry_sq, axis.e);
@@ -244,10 +260,13 @@ auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRo
             const S of_point = (against ? entry_e - of_entry : entry_e + of_entry) - axis.limit[i % 2];
             const R exit = against ? axis.e - axis.exit[j] : axis.e + axis.exit[j];
             if (exit > R{}) {
-                const S excess = of_point + quarter_product(out.high, exit);
-                if (excess > S{} && out.high > -cap_sq) {
-                    out.high = out.high - smaller(quotient_by_quarter(excess, exit), out.high + cap_sq);
-                    out.above = axis.row(j, i % 2);
+                const R entry = against ? axis.e - axis.entry[j] : axis.e + axis.entry[j];
+                const bool steep = exit < scale2(entry, steep_log2);
+                S& high = steep ? out.steep : out.high;
+                const S excess = of_point + quarter_product(high, exit);
+                if (excess > S{} && high > -cap_sq) {
+                    high = high - smaller(quotient_by_quarter(excess, exit), high + cap_sq);
+                    (steep ? out.beside : out.above) = axis.row(j, i % 2);
                 }
                 continue;
             }
@@ -263,10 +282,10 @@ auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRo
 }
 
 template <Scalar S>
-PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
+PeakSpeeds<S> AccelerationBound<S>::peak(const CapLine<S>& cap) const noexcept {
     auto peak = PeakSpeeds<S>::unknown();
     while (!peak.known()) {
-        approach_peak(cap_sq, peak);
+        approach_peak(cap, peak);
     }
     return peak;
 }
@@ -274,7 +293,7 @@ PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
 // While the peak is unknown, its exits hold how far the search is: the next entry, and by how much it is reduced where
 // rounding hides the next step.
 template <Scalar S>
-void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const noexcept {
+void AccelerationBound<S>::approach_peak(const CapLine<S>& cap, PeakSpeeds<S>& peak) const noexcept {
     PerAxis<AxisRows> rows;
     for (const unsigned k : indices(cell_.axes)) {
         rows[k] = rows_of(k);
@@ -282,12 +301,13 @@ void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const no
     S& entry = peak.smallest_exit_sq;
     S& back = peak.largest_exit_sq;
     if (!(back > S{})) {
-        entry = cap_sq;
-        back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
+        entry = cap.entry_sq;
+        back = larger(scale2(cap.entry_sq, least_step_log2<S>), literal<S>(0x1p-32));
     }
     for (int step = 0; step < steps_a_part; ++step) {
-        const Exits exits = exits_from(entry, cap_sq, rows);
-        if (exits.low <= exits.high) {
+        const Exits exits = exits_from(entry, cap.exit_sq, rows);
+        const bool any = exits.low <= smaller(exits.high, exits.steep);
+        if (any && exits.high <= exits.steep) {
             peak = {entry, exits.low, exits.high};
             return;
         }
@@ -295,8 +315,10 @@ void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const no
             peak = {};
             return;
         }
-        const S crossing = -exits.below.exit < exits.above.exit ? crossing_of(exits.below, exits.above)
-                                                                : crossing_of(exits.above, exits.below);
+        const Row& first = any ? exits.above : exits.below;
+        const Row& second = exits.steep < exits.high ? exits.beside : exits.above;
+        const S crossing =
+            absolute(first.exit) < absolute(second.exit) ? crossing_of(first, second) : crossing_of(second, first);
         if (crossing < entry) {
             entry = larger(crossing, S{});
         } else { // the same pair again: rounding, which nearly parallel lines magnify

@@ -6,6 +6,7 @@
 #include "splinefeed/number/division_by.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s2_arc_length/cell_interval.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/cap_line.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace splinefeed {
@@ -44,11 +45,11 @@ public:
     [[nodiscard]] S change(bool faster, S ends_sq, S at_most) const noexcept;
     /// Every exit_sq up to this value, at most at_most, can be reached from standstill.
     [[nodiscard]] S reach_from_standstill(S at_most) const noexcept;
-    /// The largest possible entry_sq if neither end is faster than cap_sq, with its exits.
-    [[nodiscard]] PeakSpeeds<S> peak(S cap_sq) const noexcept;
+    /// The largest possible entry_sq up to this cap, with its exits.
+    [[nodiscard]] PeakSpeeds<S> peak(const CapLine<S>& cap) const noexcept;
     /// A part of the search for it, which begins with an unknown peak and goes on until it is known. Cost: at most
     /// three steps of Newton's method; most peaks take one.
-    void approach_peak(S cap_sq, PeakSpeeds<S>& peak) const noexcept;
+    void approach_peak(const CapLine<S>& cap, PeakSpeeds<S>& peak) const noexcept;
 
 private:
     using R = Ratio<S>;
@@ -72,11 +73,13 @@ private:
         }
     };
 
-    struct Exits { // those from low to high, and the half-planes that bound them
+    struct Exits { // those from low to the smaller of high and steep, and the half-planes that bound them
         S low{};
         S high{};
+        S steep{}; // by those that a slightly slower entry moves far away
         Row below{};
         Row above{};
+        Row beside{}; // the one of `steep`
     };
 
     [[nodiscard]] Exits exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRows>& rows) const noexcept;

@@ -24,7 +24,7 @@ bool BackwardPass<S>::run(CellWindow<S>& window, const MotionLimits<S>& limits, 
             if (!work.take(peak_steps)) {
                 return false;
             }
-            AccelerationBound<S>(here.cell, limits).approach_peak(here.cap_sq, here.peak);
+            AccelerationBound<S>(here.cell, limits).approach_peak(here.cap, here.peak);
         }
         if (!work.take()) {
             return false;
@@ -40,20 +40,20 @@ void BackwardPass<S>::visit(CellWindow<S>& window, const MotionLimits<S>& limits
     const SpeedCaps<S> caps(limits);
     const std::size_t i = --cells_;
     PlannedCell<S>& here = window.at(i);
-    const S wanted = begun_ ? wanted_sq_ : caps.wanted_sq(here.cell, here.cap_sq, wish_);
+    const CapLine<S> wanted = begun_ ? wanted_ : caps.wanted(here.cell, here.cap, wish_);
     if (!begun_ && open_end_ && !here.cell.stop_at_end) {
-        machine_sq_ = here.cap_sq;
-        override_sq_ = wanted;
+        machine_sq_ = here.cap.exit_sq;
+        override_sq_ = wanted.exit_sq;
     }
     begun_ = true;
-    S machine_cap = here.cap_sq;
-    S override_cap = wanted;
+    S machine_cap = here.cap.entry_sq;
+    S override_cap = wanted.entry_sq;
     if (i > 0) {
         const PlannedCell<S>& before = window.at(i - 1);
         const bool stop = before.cell.stop_at_end;
-        machine_cap = stop ? S{} : smaller(machine_cap, before.cap_sq);
-        wanted_sq_ = caps.wanted_sq(before.cell, before.cap_sq, wish_);
-        override_cap = stop ? S{} : smaller(override_cap, wanted_sq_);
+        machine_cap = stop ? S{} : smaller(machine_cap, before.cap.exit_sq);
+        wanted_ = caps.wanted(before.cell, before.cap, wish_);
+        override_cap = stop ? S{} : smaller(override_cap, wanted_.exit_sq);
     }
     const auto reached_from = [&](S beyond, S at_most) {
         return beyond >= here.peak.smallest_exit_sq
@@ -61,8 +61,9 @@ void BackwardPass<S>::visit(CellWindow<S>& window, const MotionLimits<S>& limits
                    : AccelerationBound<S>(here.cell, limits).largest_entry(beyond, at_most);
     };
     const S machine_reach = reached_from(machine_sq_, here.peak.entry_sq);
-    const bool alike = override_sq_ == machine_sq_ && wanted == here.cap_sq;
-    const S override_reach = alike ? machine_reach : reached_from(override_sq_, smaller(wanted, here.peak.entry_sq));
+    const bool alike = override_sq_ == machine_sq_ && wanted == here.cap;
+    const S override_reach =
+        alike ? machine_reach : reached_from(override_sq_, smaller(wanted.entry_sq, here.peak.entry_sq));
     if ((override_sq_ >= here.peak.smallest_exit_sq || override_reach >= override_cap) && last_final_ == 0) {
         last_final_ = i;
     }

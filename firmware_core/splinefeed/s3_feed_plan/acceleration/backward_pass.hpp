@@ -45,9 +45,9 @@ private:
     std::size_t cells_ = 0; // that are still to be visited
     std::size_t last_final_ = 0;
     FeedWish<S> wish_{};
-    S machine_sq_{};  // K of the machine at the node behind the next cell
-    S override_sq_{}; // K of the steering there
-    S wanted_sq_{};   // v^2 that is wanted in the next cell
+    S machine_sq_{};      // K of the machine at the node behind the next cell
+    S override_sq_{};     // K of the steering there
+    CapLine<S> wanted_{}; // what is wanted in the next cell
     bool open_end_ = false;
     bool begun_ = false; // a cell was visited
     bool running_ = false;

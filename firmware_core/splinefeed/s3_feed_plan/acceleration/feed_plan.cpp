@@ -82,7 +82,7 @@ S FeedPlan<S>::reachable_exit() const noexcept {
     if (here.cell.stop_at_end || (last && !open_)) {
         return S{};
     }
-    return last ? here.cap_sq : smaller(window_.at(1).entry_sq, here.cap_sq);
+    return last ? here.cap.exit_sq : smaller(window_.at(1).entry_sq, here.cap.exit_sq);
 }
 
 template <Scalar S>
@@ -111,7 +111,7 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
         // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
         // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
-        const S reach = AccelerationBound<S>(here.cell, limits_).reach_from_standstill(wanted_sq());
+        const S reach = AccelerationBound<S>(here.cell, limits_).reach_from_standstill(wanted().least_sq());
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
         rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved
@@ -134,12 +134,12 @@ S FeedPlan<S>::exit_from_start(S known_sq) const noexcept {
 // On a line always. Elsewhere only where that gains: the machine is slow at an end, and not because it brakes.
 template <Scalar S>
 bool FeedPlan<S>::may_peak(S fastest_entry) const noexcept {
-    if (leads_ || steering_.stops() || !has_parts(cell()) || speed_sq_ > wanted_sq()) {
+    if (leads_ || steering_.stops() || !has_parts(cell()) || speed_sq_ > wanted().least_sq()) {
         return false;
     }
     const bool brakes = !(speed_sq_ < fastest_entry) && fastest_entry < front().peak.entry_sq;
     return peaks_ || cell().degree == 1 ||
-           (!steered_ && at_ == S{} && !brakes && scale2(smaller(speed_sq_, wanted_exit_), 1) < wanted_sq());
+           (!steered_ && at_ == S{} && !brakes && scale2(smaller(speed_sq_, wanted_exit_), 1) < wanted().least_sq());
 }
 
 // The speed within the cell need not be between those at its ends.
@@ -159,7 +159,8 @@ void FeedPlan<S>::choose_peaked(S known_sq) noexcept {
         }
     }
     profile_segment_ = peaked_segment(
-        cell(), limits_, PeakTarget<S>{.from = at_, .entry_sq = speed_sq_, .most_sq = wanted_sq(), .exit_sq = exit});
+        cell(), limits_,
+        PeakTarget<S>{.from = at_, .entry_sq = speed_sq_, .most_sq = wanted().least_sq(), .exit_sq = exit});
     peaks_ = profile_segment_.stretch.to < from_integer<S>(1);
 }
 
@@ -171,7 +172,8 @@ void FeedPlan<S>::choose_steered(S known_sq) noexcept {
         steered_segment(here.cell, limits_,
                         SteeringTarget<S>{.from = at_,
                                           .entry_sq = speed_sq_,
-                                          .max_steady_sq = wanted_sq(),
+                                          .max_steady_sq = wanted().most_sq(),
+                                          .level_sq = here.cap.least_sq(),
                                           .exit_sq = wanted_exit_,
                                           .most_sq = reachable,
                                           .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
@@ -195,7 +197,7 @@ Pull FeedPlan<S>::measure(WorkBudget& work) noexcept {
     PlannedCell<S>& slot = window_.at(window_.measured());
     const Pull pull = source_->next(slot.cell, work);
     if (pull == Pull::item) {
-        slot.cap_sq = SpeedCaps<S>(limits_).cap_sq(slot.cell);
+        slot.cap = SpeedCaps<S>(limits_).cap(slot.cell);
         slot.cell.heading = {};
         slot.entry_sq = slot.exit_sq = S{};
         slot.peak = PeakSpeeds<S>::unknown();
@@ -310,7 +312,7 @@ bool FeedPlan<S>::go_on(UnderrunPolicy underrun) noexcept {
     committed_ = larger<std::size_t>(committed_, 1);
     const S exit_sq = at_ == S{} ? front().exit_sq : wanted_exit_;
     wanted_exit_ =
-        smaller(smaller(exit_sq, reachable_exit()), wanted_sq()); // a new K may be smaller by its last digits
+        smaller(smaller(exit_sq, reachable_exit()), wanted().exit_sq); // a new K may be smaller by its last digits
     return true;
 }
 

@@ -77,9 +77,9 @@ public:
     [[nodiscard]] std::uint64_t window_limited() const noexcept { return window_limited_; }
 
 private:
-    /// v^2 that is wanted in the front cell.
-    [[nodiscard]] S wanted_sq() const noexcept {
-        return SpeedCaps<S>(limits_).wanted_sq(cell(), front().cap_sq, pass_.wish());
+    /// What is wanted in the front cell.
+    [[nodiscard]] CapLine<S> wanted() const noexcept {
+        return SpeedCaps<S>(limits_).wanted(cell(), front().cap, pass_.wish());
     }
     Pull measure(WorkBudget& work) noexcept;
     Pull fill(WorkBudget& work) noexcept;

@@ -48,7 +48,7 @@ ProfileSegment<S> peaked_segment(const Cell<S>& cell, const MotionLimits<S>& lim
     const S entry = target.entry_sq;
     const S exit = target.exit_sq;
     ProfileSegment<S> out{{target.from}, entry, exit, false};
-    if (!(speeding > S{} && braking > S{})) {
+    if (!(speeding > S{} && braking > S{}) || exit > target.most_sq) {
         return out;
     }
     const S meet = (exit - entry + braking * rest) / (speeding + braking);

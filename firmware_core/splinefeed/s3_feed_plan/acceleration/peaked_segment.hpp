@@ -13,8 +13,8 @@ template <Scalar S>
 struct PeakTarget {
     S from{};     ///< fraction of the cell's length
     S entry_sq{}; ///< there; at most most_sq
-    S most_sq{};  ///< nowhere faster than this
-    S exit_sq{};  ///< at the end of the cell; at most most_sq, and allowed with the entry
+    S most_sq{};  ///< between the ends not faster than this
+    S exit_sq{};  ///< at the end of the cell; allowed with the entry. Above most_sq: there is no peak
 };
 
 /// Whether a cell has digits for parts, and is no cusp.

@@ -13,7 +13,7 @@ struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};           ///< largest v^2 anywhere in the cell that the machine allows, whatever the programmed feed
+    CapLine<S> cap{};     ///< what the machine allows, whatever the programmed feed
     PeakSpeeds<S> peak{}; ///< the fastest entry, whatever comes after the cell
 };
 

@@ -3,12 +3,13 @@
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/cap_line.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s3_feed_plan/steering/steering.hpp"
 
 namespace splinefeed {
 
-/// All results are v^2 [mm^2/s^2]. Cost: a product and up to two divisions for each axis.
+/// All results are v^2 [mm^2/s^2]. Cost: ten products and up to two divisions for each axis.
 template <Scalar S>
 class SpeedCaps {
 public:
@@ -21,14 +22,21 @@ public:
 
     /// What the machine allows, whatever the programmed feed. This is the only place where a limit of the speed is
     /// stated.
-    [[nodiscard]] S cap_sq(const Cell<S>& cell) const noexcept { return cap_sq(cell, false); }
-    /// The same for a plan that keeps the velocities of the axes in a bent cell by itself (JerkCell).
-    [[nodiscard]] S bent_cap_sq(const Cell<S>& cell) const noexcept { return cap_sq(cell, cell.degree > 1); }
+    [[nodiscard]] CapLine<S> cap(const Cell<S>& cell) const noexcept;
+    /// The same, one number for the cell, for a plan that keeps the velocities of the axes in a bent cell by itself
+    /// (JerkCell).
+    [[nodiscard]] S bent_cap_sq(const Cell<S>& cell) const noexcept;
     /// What an operator wants in a cell with this cap.
-    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept;
+    [[nodiscard]] CapLine<S> wanted(const Cell<S>& cell, const CapLine<S>& cap, const FeedWish<S>& wish) const noexcept;
+    /// The same of a cap that is one number.
+    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, const FeedWish<S>& wish) const noexcept {
+        return wanted(cell, {cap_sq, cap_sq}, wish).entry_sq;
+    }
 
 private:
-    [[nodiscard]] S cap_sq(const Cell<S>& cell, bool turns) const noexcept;
+    [[nodiscard]] S fastest_speed(const Cell<S>& cell) const noexcept;
+    [[nodiscard]] S bends_sq(const Cell<S>& cell) const noexcept;
+    [[nodiscard]] static CapLine<S> velocity_line(const Cell<S>& cell, unsigned axis, S velocity) noexcept;
     [[nodiscard]] S fastest_feed(const Cell<S>& cell) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
 

@@ -91,7 +91,7 @@ ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& li
             const S exit = change.reached ? S{} : smaller(change.profile_segment.exit_sq, aim.most_sq);
             return {{aim.from}, aim.entry_sq, exit, !(exit > S{})};
         }
-    } else if (aim.entry_sq < aim.exit_sq) {
+    } else if (aim.entry_sq < aim.exit_sq && !(aim.exit_sq > aim.level_sq)) {
         const Change<S> change = hardest_change(cell, limits, aim, aim.exit_sq);
         if (change.reached && change.profile_segment.stretch.to < last) {
             // From there on at this speed, if neither less nor more is wanted.

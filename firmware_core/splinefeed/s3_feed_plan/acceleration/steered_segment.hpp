@@ -13,6 +13,7 @@ struct SteeringTarget {
     S from{};          ///< fraction of the cell's length
     S entry_sq{};      ///< v^2 there
     S max_steady_sq{}; ///< wanted: never faster than this
+    S level_sq{};      ///< allowed anywhere in the cell; elsewhere the line from where the machine is to its exit
     S exit_sq{};       ///< wanted at the end of the cell; at most max_steady_sq and most_sq
     S most_sq{};       ///< the largest v^2 at the end of the cell from which the rest of the path can be travelled
     S known_sq{};      ///< an exit up to most_sq that the cell is known to allow; negative: none is known
