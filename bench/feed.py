@@ -13,6 +13,7 @@ import random
 import subprocess
 import sys
 import tempfile
+from functools import partial
 from statistics import median
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "judge"))
@@ -158,12 +159,12 @@ def monotone_table(tool, count, folder):
     print(f"{sum(row[0] > 1.003 for row in worst)} of {len(worst)} are longer by more than 0.3 %")
 
 
-def known_table(tool, seeds, folder):
+def known_table(tool, seeds, folder, jerk=True):
     """Motions whose time is known: the tool's over it, and without what sampling costs."""
     ratios = {form: [] for form in FORMS}
     print("| motion | axes | known | " + " | ".join(FORMS) + " |\n|---|---|---|" + "---|" * len(FORMS))
     for seed in seeds:
-        motion = KnownMotion(seed)
+        motion = KnownMotion(seed, jerk=jerk)
         cells = []
         for form, row in known_ratios(tool, motion, folder).items():
             if row[0] is None:
@@ -229,14 +230,16 @@ def main():
     parser.add_argument("--monotone", type=int, default=0, metavar="COUNT", help="so many random limits and one of them raised")
     parser.add_argument("--uneven", type=int, default=0, metavar="COUNT", help="so many splines through points 0.02 to 20 mm apart")
     parser.add_argument("--known", type=int, default=0, metavar="COUNT", help="so many random motions whose time is known, as curves, elements and G5")
+    parser.add_argument("--known-without-jerk", type=int, default=0, metavar="COUNT", help="the same on machines without a jerk limit")
     parser.add_argument("--straight", type=int, default=0, metavar="COUNT", help="so many straight moves of random machines")
     parser.add_argument("--pairs", type=int, default=0, metavar="COUNT", help="so many pairs of which the second may not be slower")
-    parser.add_argument("--seed", type=int, default=1, help="the first of --known, --straight and --pairs (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="the first of --known, --known-without-jerk, --straight and --pairs (default 1)")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="programs and machine files stay there")
     arguments = parser.parse_args()
-    counts = (arguments.random, arguments.unequal, arguments.uneven, arguments.monotone, arguments.known, arguments.straight, arguments.pairs)
+    counts = (arguments.random, arguments.unequal, arguments.uneven, arguments.monotone, arguments.known, arguments.known_without_jerk, arguments.straight,
+              arguments.pairs)
     if not arguments.curve and max(counts) <= 0:
-        parser.error("what is to be run? --curve FILE, or a COUNT for --random, --unequal, --uneven, --monotone, --known, --straight or --pairs")
+        parser.error("what is to be run? --curve FILE, or a COUNT for --random, --unequal, --uneven, --monotone, --known, --known-without-jerk, --straight or --pairs")
     with tempfile.TemporaryDirectory() as name:
         folder = arguments.keep or pathlib.Path(name)
         folder.mkdir(parents=True, exist_ok=True)
@@ -250,7 +253,8 @@ def main():
             uneven_table(arguments.tool, arguments.uneven, folder)
         if arguments.monotone:
             monotone_table(arguments.tool, arguments.monotone, folder)
-        for table, count in ((known_table, arguments.known), (straight_table, arguments.straight), (pairs_table, arguments.pairs)):
+        known_tables = ((known_table, arguments.known), (partial(known_table, jerk=False), arguments.known_without_jerk))
+        for table, count in (*known_tables, (straight_table, arguments.straight), (pairs_table, arguments.pairs)):
             if count:
                 table(arguments.tool, range(arguments.seed, arguments.seed + count), folder)
 

@@ -3,7 +3,7 @@
 """Runs a program in the simulated machine and holds it against what README.md claims, judged by judge.py.
 
     gates.py TOOL PROGRAM            PROGRAM: a path in examples/, or `uneven`: points 0.02 to 20 mm apart;
-                                     or `known`, `straight`, `monotone`: plans held against known times and each other (time_gates.py)
+                                     or `known`, `known_without_jerk`, `straight`, `monotone`: plans held against known times and each other (time_gates.py)
 
 With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md has figures of. --keep FOLDER: programs and machine
 files stay there."""

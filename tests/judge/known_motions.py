@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Random motions from rest to rest whose time is known: of each axis a chain of ramps between velocities that are mostly its limit, with the axis' largest jerk and acceleration.
+"""Random motions from rest to rest whose time is known: of each axis a chain of ramps between velocities that are mostly its limit, with the axis' largest acceleration and,
+where it has a limit, jerk.
 
 A path that such a motion travels can be travelled in its time. A planner that takes longer is not at its best; how much shorter the least
 time is, is not known. Each axis ramps or cruises at its limit nearly all the time, so it is seldom much.
 
-Every instant at which a jerk changes is a whole number of ticks. So velocities and places are integers times jerk tick^3 / 6, sums are exact,
-and no piece takes less than a tick. Between these instants each axis is a cubic in time: the path is a Bezier segment."""
+Every instant at which a jerk, or without its limit an acceleration, changes is a whole number of ticks. So velocities and places are integers times jerk tick^3 / 6 or
+acceleration tick^2 / 2, sums are exact, and no piece takes less than a tick. Between these instants each axis is a cubic or a parabola in time: the path is a Bezier segment."""
 import json
 import math
 import random
@@ -29,7 +30,7 @@ class AxisMotion:
 
     def __init__(self, numbers, first, last):
         """first, last: it moves in the first and in the last tick."""
-        self.jerk_ticks = numbers.randint(3, 15)
+        self.jerk_ticks = self.drawn_jerk_ticks(numbers)
         self.ramp_ticks = numbers.randint(max(12, self.jerk_ticks), 60)  # from rest to its limit with the full acceleration
         self.limit = self.jerk_ticks * self.ramp_ticks  # in jerk tick^2
         self.levels = self.drawn_levels(numbers)
@@ -37,14 +38,22 @@ class AxisMotion:
         self.weights[0] = 0.0 if first or numbers.random() < 0.6 else 0.3 * self.weights[1]
         self.weights[-1] = 0.0 if last or numbers.random() < 0.6 else 0.3 * self.weights[1]
 
+    @staticmethod
+    def drawn_jerk_ticks(numbers):
+        return numbers.randint(3, 15)
+
+    def drawn_dip(self, numbers):
+        """By how much a limit is left for a moment, without the full acceleration."""
+        return numbers.randint(2, self.jerk_ticks - 1) ** 2
+
     def drawn_levels(self, numbers):
         """Velocities, each of which a ramp with the largest jerk leaves for the next; from 0 to 0."""
         n, full = self.jerk_ticks, self.limit
         levels = [0, numbers.choice((-full, full))]
         for _ in range(numbers.randint(0, 4)):
             now, kind = levels[-1], numbers.random()
-            if kind < 0.25 and abs(now) == full:  # slower for a moment, without the full acceleration
-                levels += [now - int(math.copysign(numbers.randint(2, n - 1) ** 2, now)), now]
+            if kind < 0.25 and abs(now) == full:  # slower for a moment
+                levels += [now - int(math.copysign(self.drawn_dip(numbers), now)), now]
             elif kind < 0.8 or abs(now) != full:
                 levels.append(-full if now > 0 else full)
             else:
@@ -86,7 +95,7 @@ class AxisMotion:
         return found
 
     def pieces(self, instants):
-        """Between these instants, in units of jerk tick^3 / 6: four control points, and the place by which it is (twice the velocity, acceleration, jerk)."""
+        """Between these instants, in units of jerk tick^3 / 6: four control points, and what it begins with (twice the velocity, acceleration, jerk)."""
         jerks = [sign for ticks, sign in self.phases for _ in range(ticks)]
         p, v, a, found = 0, 0, 0, []
         for start, end in zip(instants, instants[1:]):
@@ -108,12 +117,39 @@ class AxisMotion:
         return abs(v + 2 * a * t + j * t * t) / (2 * self.limit)
 
 
-class KnownMotion:
-    """Limits of each axis (velocity, acceleration, jerk in mm and s), `seconds`, and `control_points` of each piece in mm."""
+class AxisMotionWithoutJerk(AxisMotion):
+    """The same whose phases have the sign of its acceleration: a jerk that takes one tick, which counts for none."""
 
-    def __init__(self, seed, axes=0):
-        numbers = random.Random(f"known motion {seed}")
-        self.seed = seed
+    @staticmethod
+    def drawn_jerk_ticks(numbers):
+        return 1
+
+    def drawn_dip(self, numbers):
+        return numbers.randint(1, self.limit - 1)
+
+    def ramp(self, change):
+        return [(abs(change), 1 if change > 0 else -1)]
+
+    def pieces(self, instants):
+        """In units of acceleration tick^2 / 2: three control points."""
+        signs = [sign for ticks, sign in self.phases for _ in range(ticks)]
+        p, v, found = 0, 0, []
+        for start, end in zip(instants, instants[1:]):
+            t, a = end - start, signs[start]
+            points = (p, p + v * t, p + 2 * v * t + a * t * t)
+            found.append((points, (2 * v, a, 0)))
+            p, v = points[2], v + a * t
+        if v:
+            raise ValueError("the axis does not end at rest")
+        return found
+
+
+class KnownMotion:
+    """Limits of each axis (velocity, acceleration, jerk or None in mm and s), `seconds`, and `control_points` of each piece in mm."""
+
+    def __init__(self, seed, axes=0, jerk=True):
+        numbers = random.Random(f"known motion {seed}{'' if jerk else ' without jerk'}")
+        self.seed, self.kind = seed, AxisMotion if jerk else AxisMotionWithoutJerk
         count = axes or numbers.choice(AXES)
         while not self.drawn(numbers, count):
             pass
@@ -121,7 +157,7 @@ class KnownMotion:
     def drawn(self, numbers, count):
         """Whether it is one that is wanted."""
         first, last = numbers.randrange(count), numbers.randrange(count)
-        axes = [AxisMotion(numbers, i == first, i == last) for i in range(count)]
+        axes = [self.kind(numbers, i == first, i == last) for i in range(count)]
         ticks = int(max(axis.least_ticks() for axis in axes) * numbers.uniform(1.05, 1.5)) + 1
         for axis in axes:
             axis.fill(ticks)
@@ -135,10 +171,11 @@ class KnownMotion:
         for axis in axes:
             velocity = 10 ** numbers.uniform(1.3, 2.6)
             acceleration = velocity / (axis.ramp_ticks * tick_s)
-            jerk = acceleration / (axis.jerk_ticks * tick_s)
-            self.limits.append((velocity, acceleration, jerk))
-            units.append(jerk * tick_s**3 / 6.0)
-        self.control_points = [[[unit * piece[0][k] for unit, piece in zip(units, row)] for k in range(4)] for row in zip(*pieces)]
+            limits = (velocity, acceleration, acceleration / (axis.jerk_ticks * tick_s))
+            self.limits.append(limits if self.kind is AxisMotion else (velocity, acceleration, None))
+            units.append(limits[2] * tick_s**3 / 6.0 if self.kind is AxisMotion else acceleration * tick_s**2 / 2.0)
+        points = [zip(*(piece[0] for piece in row)) for row in zip(*pieces)]
+        self.control_points = [[[unit * place for unit, place in zip(units, point)] for point in row] for row in points]
         return min(polygon_mm(points) for points in self.control_points) >= SHORTEST_MM
 
     @staticmethod
@@ -160,8 +197,8 @@ class KnownMotion:
         return index in (0, len(self.control_points) - 1)
 
     def curve(self):
-        """A cubic at rest would have no tangent there: as a line it has."""
-        pieces = [[points[0], points[3]] if self.straight(i) else points for i, points in enumerate(self.control_points)]
+        """A cubic or parabola at rest would have no tangent there: as a line it has."""
+        pieces = [[points[0], points[-1]] if self.straight(i) else points for i, points in enumerate(self.control_points)]
         return json.dumps({"method": "bezier", "input": {"segments": [{"control_points": points} for points in pieces]}})
 
     def elements(self):
@@ -172,13 +209,13 @@ class KnownMotion:
         for i, points in enumerate(self.control_points):
             points = [[*point, 0.0][:3] for point in points]
             line = self.straight(i)
-            element = {"type": "line" if line else "bezier", "from": points[0], "to": points[3], "tolerance_mm": 0}
+            element = {"type": "line" if line else "bezier", "from": points[0], "to": points[-1], "tolerance_mm": 0}
             found.append(element if line else {**element, "control_points": points})
         return json.dumps({"elements": found})
 
     def g5(self):
-        """None but for x and y: G-code has no other cubic splines."""
-        if len(self.limits) != 2:
+        """None but for x and y, and cubics: G-code has no other cubic splines."""
+        if len(self.limits) != 2 or self.kind is not AxisMotion:
             return None
         text = f"G21 G17 G90 G94 G64 P{GCODE_TOLERANCE_MM} F{60 * self.feed()}\n"
         for i, (start, near, far, end) in enumerate(self.control_points):

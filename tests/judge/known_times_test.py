@@ -63,6 +63,21 @@ class KnownMotions(unittest.TestCase):
             most = [np.abs(rate).max(axis=tuple(range(rate.ndim - 1))) / limits[:, k] for k, rate in enumerate((velocity, acceleration, jerk))]
             np.testing.assert_allclose(np.array(most), 1.0, atol=1e-7)
 
+    def test_without_jerk_keep_limits_and_reach_them(self):
+        for seed in SEEDS:
+            motion = KnownMotion(seed, jerk=False)
+            points, limits = np.array(motion.control_points), np.array([row[:2] for row in motion.limits])
+            self.assertAlmostEqual(sum(motion.piece_seconds), motion.seconds, places=9)
+            self.assertFalse(points[0, 0].any())
+            np.testing.assert_array_equal(points[1:, 0], points[:-1, 2])
+            of = np.array(motion.piece_seconds)[:, None, None]
+            velocity = 2.0 * np.diff(points, axis=1) / of / limits[:, 0]
+            acceleration = np.diff(points, n=2, axis=1) * 2.0 / of**2 / limits[:, 1]
+            np.testing.assert_allclose(velocity[1:, 0], velocity[:-1, 1], atol=1e-7)
+            np.testing.assert_allclose([velocity[0, 0], velocity[-1, 1]], 0.0, atol=1e-7)
+            for share in (velocity, acceleration):
+                np.testing.assert_allclose(np.abs(share).max(axis=(0, 1)), 1.0, atol=1e-7)
+
     def test_have_one_path_in_all_forms(self):
         for seed in SEEDS:
             motion = KnownMotion(seed)

@@ -12,8 +12,9 @@ def machine_text(axes, feed, acceleration, jerk=None, head=""):
 
 
 def unequal_machine_text(limits, feed, period_us=1000):
-    """limits: velocity, acceleration and jerk of each axis, from x on."""
+    """limits: velocity, acceleration and jerk or None of each axis, from x on."""
     text = f'name = "measured"\nsample_period_us = {period_us}\n[path]\nmax_feed_mm_s = {feed!r}\n'
     for name, (velocity, acceleration, jerk) in zip("xyzabc", limits):
-        text += f'[[axis]]\nname = "{name}"\nmax_velocity_mm_s = {velocity!r}\nmax_acceleration_mm_s2 = {acceleration!r}\nmax_jerk_mm_s3 = {jerk!r}\n'
+        text += f'[[axis]]\nname = "{name}"\nmax_velocity_mm_s = {velocity!r}\nmax_acceleration_mm_s2 = {acceleration!r}\n'
+        text += f"max_jerk_mm_s3 = {jerk!r}\n" if jerk else ""
     return text

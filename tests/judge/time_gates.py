@@ -15,6 +15,8 @@ MONOTONE_FOUND = (1088, 1096, 1123, 1309, 1360, 1384)
 # Of the known time: the median without what sampling costs, and not of those found; the worst with both.
 KNOWN = {"curve": (1.01, 1.05), "elements": (1.01, 1.05), "g5": (1.01, 1.05)}
 DECIMALS = 1.01  # what those of G5 may cost besides, at worst
+# Without a jerk limit: the median and the worst of them all, both without what sampling costs.
+KNOWN_WITHOUT_JERK = (1.0, 1.005)
 STRAIGHT = 1.01  # of seven phases, and what sampling costs
 # What falls short of these gates still, and may not become longer.
 KNOWN_SHORT = {30: 1.065, 1019: 1.082, 1186: 1.157, 1259: 1.075, 1276: 1.243, 2656: 1.07, 2821: 1.056}
@@ -51,6 +53,22 @@ def known_problems(tool, folder):
               f"time over the known one {worst:.4f} at most, {KNOWN[form][1]} but for {len(KNOWN_SHORT)} of them")
         if not middle <= KNOWN[form][0]:
             failed.append(f"median {middle:.4f} as {form}, not at most {KNOWN[form][0]}")
+    return failed
+
+
+def known_without_jerk_problems(tool, folder):
+    failed, ratios = [], []
+    for seed in KNOWN_SEEDS:
+        motion = KnownMotion(seed, jerk=False)
+        for planned, without_sampling, case in known_ratios(tool, motion, folder).values():
+            if planned is None or not without_sampling <= KNOWN_WITHOUT_JERK[1]:
+                failed.append(f"{'no plan' if planned is None else f'{without_sampling:.4f}'} of the known {motion.seconds:.4f} s, not at most {KNOWN_WITHOUT_JERK[1]}: {case}")
+            if planned is not None:
+                ratios.append(without_sampling)
+    print(f"{len(ratios)} motions without a jerk limit, time without sampling over the known one {median(ratios):.4f} in the median, at most {KNOWN_WITHOUT_JERK[0]}; "
+          f"{max(ratios):.4f} at most, at most {KNOWN_WITHOUT_JERK[1]}")
+    if not median(ratios) <= KNOWN_WITHOUT_JERK[0]:
+        failed.append(f"median {median(ratios):.4f}, not at most {KNOWN_WITHOUT_JERK[0]}")
     return failed
 
 
@@ -95,4 +113,4 @@ def monotone_problems(tool, folder):
     return failed
 
 
-TIME_GATES = {"known": known_problems, "straight": straight_problems, "monotone": monotone_problems}
+TIME_GATES = {"known": known_problems, "known_without_jerk": known_without_jerk_problems, "straight": straight_problems, "monotone": monotone_problems}
