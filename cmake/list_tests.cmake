@@ -37,7 +37,7 @@ foreach(name IN LISTS names)
     endforeach()
     # Where a test cannot run it prints "SKIPPED: reason" and returns (Catch2 3: SKIP("reason")). What failed before is a failure.
     string(APPEND script "add_test([==[${PREFIX}/${name}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
-                         "set_tests_properties([==[${PREFIX}/${name}]==] PROPERTIES TIMEOUT 600 PROCESSORS 2 COST ${COST} "
+                         "set_tests_properties([==[${PREFIX}/${name}]==] PROPERTIES TIMEOUT 600 PROCESSORS 2 COST ${COST} LABELS ${PREFIX}_tests "
                          "SKIP_REGULAR_EXPRESSION [==[SKIPPED: .*(All tests passed|test cases: 1 [|] 1 (passed|skipped))]==])\n")
 endforeach()
 set(expected 0)

@@ -167,7 +167,7 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         follow();
         first_ = waits_ ? pushed_ : first_;                                    // what is before it is over
         planning_ = !waits_ || sent_abort_ || !(move(pushed_).pitch_mm > 0.0); // else it follows the spindle
-        const bool aborted = sent_abort_ && stands() && trajectory_.activity() == Activity::aborted;
+        const bool aborted = sent_abort_ && stands() && stream_->activity() == Activity::aborted;
         const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
         if (complete) {
             output.complete = 1;

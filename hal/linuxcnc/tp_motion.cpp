@@ -20,9 +20,8 @@ constexpr double most_feed_mm_s = 10'000.0; // that MotionLimits accepts
 constexpr double at_rest = 0.3;             // of the time without a new move: a stop more costs less there
 constexpr double between_changes_s = 0.004; // of an override that changes all the time, as an adaptive feed may
 constexpr double with_jerk_s = 0.1;         // a search for each
-constexpr double same_place_mm = 1e-6;
-constexpr unsigned kept_by_path = 2; // moves: what becomes of a joint depends on two behind it
-constexpr unsigned most_pushed = 4;  // moves, between two looks at the clock
+constexpr unsigned kept_by_path = 2;        // moves: what becomes of a joint depends on two behind it
+constexpr unsigned most_pushed = 4;         // moves, between two looks at the clock
 
 MachineSettings settings_of(const tpc_machine& machine) noexcept {
     MachineSettings out;
@@ -205,29 +204,24 @@ const char* TpMotion::begin_path() noexcept {
     const double segments = machine_.period_s * ticks_per_s / limits_.segment_ticks;
     per_period_ = larger(1U, static_cast<unsigned>(segments + 0.5));
     rules_ = path_rules(settings);
-    TolerancePath<double>& path = path_.build(machine_.axes, rules_);
     PerAxis<Position> start{};
     for (const unsigned k : indices(machine_.axes)) {
         start[k] = position_from_mm(at_[k]);
     }
-    if (const Status started = path.start(start); !started.ok()) {
-        return describe(started.error());
-    }
     Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
-    const auto trajectory = Trajectory<double>::make(path, limits_, planner);
-    if (!trajectory.has_value()) {
-        return describe(trajectory.error());
+    stream_.build(limits_, planner, rules_);
+    if (const Status placed = stream_->place(start); !placed.ok()) {
+        return describe(placed.error());
     }
-    trajectory_ = *trajectory;
     base_ = floor_ = pushed_;
     if (leads_) {
-        if (const Status led = lead(path); !led.ok()) {
+        if (const Status led = lead(); !led.ok()) {
             return describe(led.error());
         }
     }
     neared_ = pushed_ - 1U;
     piece_ = pushed_ - 1U;
-    sent_abort_ = closed_ = false;
+    sent_abort_ = false;
     ratio_ = rapids_ = PacedValue(1.0);
     most_ = PacedValue(no_limit_mm_s);
     return nullptr;
@@ -237,7 +231,7 @@ void TpMotion::steer(const tpc_input& input) noexcept {
     may_begin_ = input.may_begin != 0;
     const bool abort = input.abort != 0 || failed_;
     if (abort && !sent_abort_) {
-        trajectory_.abort();
+        stream_->abort();
         sent_abort_ = true;
     }
     const double pace_s = limits_.jerk_limited ? with_jerk_s : between_changes_s;
@@ -247,61 +241,48 @@ void TpMotion::steer(const tpc_input& input) noexcept {
     const bool parts = input.steps != 0 && !stepped_; // to take it apart, it stands
     const bool stops = input.hold != 0 || !(input.max_feed > 0.0) || parts;
     if (ratio_.take(stops ? 0.0 : input.ratio, machine_.period_s, pace_s)) {
-        trajectory_.override_feed(ratio_.value());
+        stream_->override_feed(Fixed::from_double(ratio_.value()));
     }
     if (rapids_.take(input.rapids, machine_.period_s, pace_s)) {
-        trajectory_.override_rapids(rapids_.value());
+        stream_->override_rapids(Fixed::from_double(rapids_.value()));
     }
     const double most = smaller(input.max_feed * machine_.mm_per_unit, no_limit_mm_s);
     if (most > 0.0 && most_.take(most, machine_.period_s, pace_s)) {
-        trajectory_.limit_feed(most_.value());
+        stream_->limit_feed(Fixed::from_double(most_.value()));
     }
 }
 
-// At standstill at the end of all that the path has, and not held before it.
-bool TpMotion::at_known_end() noexcept {
-    if (!stands() || (has_now_ ? base_ + now_.waypoint + 1U : base_) != pushed_) {
-        return false;
-    }
-    bool there = true;
-    for (const unsigned k : indices(has_now_ ? machine_.axes : 0)) {
-        there = there && std::fabs(at_[k] - move(pushed_ - 1U).to[k]) < same_place_mm;
-    }
-    return there;
-}
-
-// Gives the path one more move; false: none may go now. The newest one stays here until it is released, because the one
-// behind it may need the machine to stand at its end.
-bool TpMotion::push_one(bool release) noexcept {
-    if (pushed_ == last_ || !path_->has_room() || (stepped_ && pushed_ != first_)) {
+// Gives the stream one more move; false: none may go now.
+bool TpMotion::push_one() noexcept {
+    if (pushed_ == last_ || (stepped_ && pushed_ != first_)) {
         return false;
     }
     const QueuedMove& next = move(pushed_);
-    PathElement<double> element = next.element;
     if (next.stands_before) {
-        waits_ = at_known_end();
+        waits_ = stream_->stop() && at_known_end();
         if (!waits_ || !may_begin_ || next.pitch_mm > 0.0) {
             return false;
         }
+        stream_->go_on();
     }
-    const bool newest = pushed_ + 1U == last_;
-    if (newest && !release && !stepped_) {
-        return false;
-    }
-    element.stop_at_end = element.stop_at_end || newest || stepped_ || move(pushed_ + 1U).stands_before;
-    if (const Status pushed = path_->push(element); !pushed.ok()) {
-        fail(describe(pushed.error())); // never: add() has asked
+    const Result<bool> taken = stream_->push(next.element);
+    if (!taken.has_value()) {
+        if (taken.error() != Error::no_room) {
+            fail(describe(taken.error())); // never: add() has asked
+        }
         return false;
     }
     waits_ = false;
-    closed_ = element.stop_at_end;
     ++pushed_;
+    if (stepped_) {
+        stream_->stop();
+    }
     return true;
 }
 
 bool TpMotion::push_moves() noexcept {
     unsigned n = 0;
-    while (n < most_pushed && push_one(false)) {
+    while (n < most_pushed && push_one()) {
         ++n;
     }
     return n > 0;
@@ -309,9 +290,9 @@ bool TpMotion::push_moves() noexcept {
 
 // No move came for a while: the path ends with the one that was kept. A plan with a jerk limit takes periods to be
 // made: half of the ring. The other one waits for moves as long as there are segments.
-bool TpMotion::released() noexcept {
-    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 1U + per_period_) &&
-           idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s && push_one(true);
+bool TpMotion::pauses() const noexcept {
+    return ring_count_ < (limits_.jerk_limited ? ahead_ / 2U : 1U + per_period_) && stream_->keeps_back() &&
+           idle_ * machine_.period_s >= (stands() ? at_rest : 1.0) * settings_.idle_s;
 }
 
 // A path begins once its first move may be left as fast as it can be, and the segments that are made at once need not
@@ -331,7 +312,8 @@ bool TpMotion::knows_enough() noexcept {
     };
     const QueuedMove& first = move(base_);
     double behind_mm = 0.0;
-    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - kept_by_path - n) > 0; ++n) {
+    const unsigned kept = kept_by_path + (stream_->keeps_back() ? 1U : 0U);
+    for (unsigned n = base_ + 1U; static_cast<int>(pushed_ - kept - n) > 0; ++n) {
         behind_mm += move(n).length_mm;
     }
     const double feed = first.element.feed_mm_s;
@@ -340,7 +322,7 @@ bool TpMotion::knows_enough() noexcept {
     const double soon = smaller(speed, at_once_s * smaller(acceleration, 0.5 * jerk * at_once_s));
     const double least_mm = 0.5 * soon * at_once_s + braking_mm(soon);
     return (behind_mm >= smaller(first.length_mm, braking_mm(speed)) && first.length_mm + behind_mm >= least_mm) ||
-           !path_->has_room();
+           !stream_->has_room();
 }
 
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
@@ -351,11 +333,11 @@ void TpMotion::plan() noexcept {
     const int ahead = move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead;
     ahead_ = per_period_ * static_cast<unsigned>(ahead);
     static_cast<void>(push_moves());
-    bool drains = false;
+    Supply supply = Supply::flows;
     unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
-        const bool moves = !trajectory_.at_rest();
+        const bool moves = !stream_->at_rest();
         const bool needed = ring_count_ <= per_period_ && moves;
         if (over && !needed) {
             unfinished_ = true;
@@ -364,12 +346,11 @@ void TpMotion::plan() noexcept {
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
-        const UnderrunPolicy policy = drains || closed_ ? UnderrunPolicy::drain : UnderrunPolicy::wait;
-        const Pull pull = trajectory_.next(out, urgent ? UnderrunPolicy::urgent : policy, urgent ? 1U : part);
+        const Pull pull = stream_->next(out, urgent ? Supply::urgent : supply, urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
             figures_.urgent += urgent ? 1U : 0U;
-            drains = false;
+            supply = Supply::flows;
         } else if (pull == Pull::busy) {
             ++figures_.busy;
             if (over) { // it has no plan to go on by, so it stands
@@ -377,22 +358,22 @@ void TpMotion::plan() noexcept {
                 return;
             }
         } else if (pull != Pull::starved) {
-            if (const Status path = trajectory_.status(); !path.ok()) {
+            if (const Status path = stream_->status(); !path.ok()) {
                 fail(describe(path.error()));
             }
             return;
-        } else if (!push_moves() && !released()) {
-            if (ring_count_ > per_period_ || policy != UnderrunPolicy::wait || over) {
-                return; // or there is time for moves to come
-            }
-            if (!has_now_ && !knows_enough()) {
-                return;
-            }
-            drains = true;
+        } else if (push_moves()) {
+            continue;
+        } else if (pauses()) {
+            supply = Supply::pauses;
+        } else if (ring_count_ > per_period_ || supply != Supply::flows || over || (!has_now_ && !knows_enough())) {
+            return; // or there is time for moves to come
+        } else {
+            supply = Supply::late;
         }
     }
     refills_ = false;
-    while (settings_.now_ns() < end && trajectory_.plan_ahead(part)) {
+    while (settings_.now_ns() < end && stream_->trajectory().plan_ahead(part)) {
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // TpMotion: queued moves to the position of every servo period, by the motion core.
 //
-//   add() ──► queue ──► TolerancePath ──► Trajectory ──► ring of segments ──► position
-//             2048      64 moves          512 cells      `ahead`             one a period
+//   add() ──► queue ──► MoveStream: 64 moves, 512 cells ──► ring of segments ──► position
+//             2048                                          `ahead`             one a period
 //
 // In each period planning goes on until its share of the period is over, so the next pass of the plan begins as many
 // periods before its result is needed as segments are ready. Where the ring is empty all the same, the motion goes on
@@ -15,8 +15,7 @@
 
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/jerk_planner.hpp"
-#include "splinefeed/s1_blended_path/tolerance_path.hpp"
-#include "splinefeed/trajectory.hpp"
+#include "splinefeed/move_stream/scalar_stream.hpp"
 
 #include <array>
 
@@ -78,13 +77,13 @@ private:
     void steer(const tpc_input& input) noexcept;
     void plan() noexcept;
     [[nodiscard]] const char* begin_path() noexcept;
-    bool push_one(bool release) noexcept;
+    bool push_one() noexcept;
     bool push_moves() noexcept;
-    [[nodiscard]] bool released() noexcept;
+    [[nodiscard]] bool pauses() const noexcept;
     [[nodiscard]] bool knows_enough() noexcept;
     [[nodiscard]] bool rests() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
-    [[nodiscard]] bool at_known_end() noexcept;
+    [[nodiscard]] bool at_known_end() const noexcept { return stands() && stream_->exhausted(); }
     void follow() noexcept;
     [[nodiscard]] SpindleSync::Leg leg(unsigned n, const Mm& from) noexcept;
     [[nodiscard]] bool goes_on(unsigned n) noexcept;
@@ -98,7 +97,7 @@ private:
     [[nodiscard]] double turned_to_end(const Mm& at) noexcept;
     void turn(const Mm& at) noexcept;
     void take_apart() noexcept;
-    [[nodiscard]] Status lead(TolerancePath<double>& path) noexcept;
+    [[nodiscard]] Status lead() noexcept;
     [[nodiscard]] bool step(bool steps) noexcept;
     void tell(const Mm& before, tpc_output& output) noexcept;
 
@@ -116,10 +115,9 @@ private:
     std::array<LegNode<double>, all_jerk_cells + 1> scratch_;
     AccelerationPlanner<double> acceleration_{window_};
     JerkPlanner<double> jerk_{window_, {cells_, nodes_, scratch_}};
-    Slot<TolerancePath<double>> path_;
+    Slot<ScalarStream<double>> stream_;
     MotionLimits<double> limits_;
     PathRules<double> rules_;
-    Trajectory<double> trajectory_;
     SpindleSync sync_; // for moves that follow the spindle, in place of the trajectory
 
     // Sequence numbers of moves count up and wrap around.
@@ -158,7 +156,6 @@ private:
     bool syncs_ = false; // or a move that follows the spindle
     bool waits_ = false; // at standstill before move pushed_
     bool may_begin_ = false;
-    bool closed_ = false; // the path ends at a stop, so nothing can change what is planned to there
     bool has_now_ = false;
     bool refills_ = false;    // the ring, by the old plan
     bool unfinished_ = false; // the share of the period was not enough

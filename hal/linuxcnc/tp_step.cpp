@@ -103,7 +103,7 @@ void TpMotion::take_apart() noexcept {
 }
 
 // A path begins with a line to the arc, where the machine stands too far from it: in a rounded corner.
-Status TpMotion::lead(TolerancePath<double>& path) noexcept {
+Status TpMotion::lead() noexcept {
     leads_ = false;
     QueuedMove& arc = move(first_);
     arc.stands_before = false;
@@ -113,7 +113,8 @@ Status TpMotion::lead(TolerancePath<double>& path) noexcept {
         line.to[k] = position_from_mm(lead_to_[k]);
     }
     base_ = pushed_ - 1U;
-    return path.push(line);
+    const Result<bool> taken = stream_->push(line);
+    return taken.has_value() ? Status{} : taken.error();
 }
 
 // Behind a period. @return whether a step is under way

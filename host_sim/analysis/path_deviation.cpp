@@ -85,6 +85,12 @@ void PathDeviation::start(const PerAxis<Position>& position) {
     }
 }
 
+void PathDeviation::stop() {
+    if (!moves_.empty()) {
+        moves_.back().mode = PathMode::exact_stop;
+    }
+}
+
 void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
     Move added{.strand = PathStrand(here_, move, axes_),
                .mode = move.stop_at_end ? PathMode::exact_stop : move.mode,

@@ -46,6 +46,8 @@ public:
 
     void start(const PerAxis<Position>& position);
     void move(const PathElement<double>& move, std::uint64_t line);
+    /// The machine stands at the end of the last one: the path passes through it.
+    void stop();
     /// @param segment  with the index of the move in `waypoint`, modulo 2^32, as the path delivers it
     void segment(const CurveSegment<double>& segment);
     /// The path is complete: what is left of the moves is measured. Without this call moves that the path did not reach

@@ -3,6 +3,7 @@
 
 #include "host_sim/program/element_program.hpp"
 #include "host_sim/program/gcode/gcode_moves.hpp"
+#include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/move_source.hpp"
 #include "host_sim/program/path_input.hpp"
 
@@ -33,6 +34,7 @@ public:
             return false;
         }
         out.line = row.line;
+        out.row = rows_read_ - 1;
         move.stop_at_end = row.corner == Corner::forced;
         move.tolerance_mm = row.tolerance_mm.value_or(input_->choice().tolerance_mm);
         move.feed_mm_s = row.feed_mm_s;
@@ -43,14 +45,19 @@ public:
     [[nodiscard]] bool wait(Patience patience) override { return rows_->wait(patience); }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return rows_read_; }
-    [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override { return move + 1U; }
+    void pushed(const SourceStep& step) override { ahead_.add(step.row - ahead_.moves()); }
+    [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override {
+        return move + static_cast<std::uint32_t>(ahead_.line_of(move));
+    }
 
     [[nodiscard]] std::uint64_t line_of_row(std::uint64_t row) const noexcept override {
         const bool known = row < rows_read_ && row + remembered >= rows_read_;
         return known ? lines_[row % remembered] : 0;
     }
 
-    [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 2; }
+    [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override {
+        return move + ahead_.line_of(move) + 1;
+    }
 
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override {
         return fmt::format("the move to point {} (line {})", number_of_move(move), line);
@@ -79,6 +86,7 @@ private:
     const PathInput* input_;
     std::unique_ptr<WaypointRows> rows_;
     std::vector<std::uint64_t> lines_; // line of row i at index i % remembered
+    LineHistory ahead_;                // of each move: how many rows its own is ahead of it
     std::uint64_t rows_read_ = 0;
 };
 
@@ -109,6 +117,7 @@ public:
             return false;
         }
         out.line = program_->line_of(element);
+        out.row = element;
         out.move = program_->element(moves_);
         rows_ = element + std::uint64_t{1};
         ++moves_;
@@ -116,13 +125,14 @@ public:
     }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return rows_; }
+    void pushed(const SourceStep& step) override { taken_.push_back(static_cast<std::uint32_t>(step.row)); }
     [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override {
-        return program_->element_of(move);
+        return move < taken_.size() ? taken_[move] : 0;
     }
     [[nodiscard]] std::uint64_t line_of_row(std::uint64_t /*row*/) const noexcept override { return 0; }
 
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override {
-        return program_->element_of(move) + std::uint64_t{1};
+        return row_of(static_cast<std::uint32_t>(move)) + std::uint64_t{1};
     }
 
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override {
@@ -144,8 +154,9 @@ public:
 private:
     const ElementProgram* program_;
     const std::string* file_;
-    std::size_t moves_ = 0;  // delivered
-    std::size_t dwells_ = 0; // delivered
+    std::vector<std::uint32_t> taken_; // elements of the moves in the path
+    std::size_t moves_ = 0;            // delivered
+    std::size_t dwells_ = 0;           // delivered
     std::uint64_t rows_ = 0;
 };
 

@@ -2,7 +2,6 @@
 #include "host_sim/planning/path_curve.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/program/element_cast.hpp"
 
 namespace splinefeed::host {
 
@@ -31,17 +30,6 @@ void require_smoothable(const CurveFile& file) {
     }
 }
 
-template <Scalar S>
-PathElement<S> element_of(const SourceStep& step) {
-    auto element = element_cast<S>(step.move);
-    if constexpr (std::same_as<S, Fixed>) {
-        if (step.exact_points && element.shape == MoveShape::bezier) {
-            element.bezier = *step.exact_points;
-        }
-    }
-    return element;
-}
-
 } // namespace
 
 template <Scalar S>
@@ -50,10 +38,6 @@ PathCurve<S>::PathCurve(const PathInput& input) : axes_(static_cast<int>(input.a
     EndTangents<S> tangents;
     take_tangent(choice.start_tangent, axes_, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, axes_, tangents.has_end, tangents.end);
-    if (input.within_tolerance()) {
-        source_ = &curve_.template emplace<TolerancePath<S>>(axes_, rules_cast<S>(input.tolerances().rules));
-        return;
-    }
     Seam seam = choice.closed ? Seam::repeated : Seam::open;
     if (const CurveFile* const file = input.segments()) {
         auto& segments = curve_.template emplace<BezierSource<S>>(*file, axes_, choice.smooth);
@@ -76,17 +60,9 @@ PathCurve<S>::PathCurve(const PathInput& input) : axes_(static_cast<int>(input.a
 }
 
 template <Scalar S>
-PathCounts PathCurve<S>::counts() const noexcept {
-    const auto* const path = std::get_if<TolerancePath<S>>(&curve_);
-    return path != nullptr ? path->counts() : PathCounts{};
-}
-
-template <Scalar S>
 std::size_t PathCurve<S>::bytes() const noexcept {
     const auto* const streamed = std::get_if<StreamedCurve<S>>(&curve_);
-    return streamed != nullptr                                ? streamed->bytes
-           : std::holds_alternative<TolerancePath<S>>(curve_) ? sizeof(TolerancePath<S>)
-                                                              : sizeof(BezierSource<S>);
+    return streamed != nullptr ? streamed->bytes : sizeof(BezierSource<S>);
 }
 
 template <Scalar S>
@@ -97,25 +73,6 @@ Status PathCurve<S>::push(const Waypoint<double>& waypoint, Role role) {
     out.max_feed_mm_s = from_double<S>(waypoint.max_feed_mm_s);
     out.corner = waypoint.corner;
     return waypoints().push(out, role);
-}
-
-template <Scalar S>
-Status PathCurve<S>::push(const SourceStep& step) {
-    return path().push(element_of<S>(step));
-}
-
-template <Scalar S>
-Result<bool> PathCurve<S>::has_length(const PerAxis<Position>& from, const SourceStep& step) const {
-    const Result<S> length = BlendedPath<S>::length_of(from, element_of<S>(step), axes_);
-    if (!length.has_value()) {
-        return length.error();
-    }
-    return *length > S{};
-}
-
-template <Scalar S>
-Status PathCurve<S>::finish() {
-    return std::holds_alternative<TolerancePath<S>>(curve_) ? path().finish() : waypoints().finish();
 }
 
 template class PathCurve<double>;

@@ -5,6 +5,7 @@
 #include "host_sim/planning/waypoint_feeder.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -25,11 +26,6 @@ private:
 
 } // namespace
 
-bool PathFeeder::release(Pushed& pushed) {
-    pushed = {};
-    return false;
-}
-
 std::string PathFeeder::name_of_row(std::uint32_t row) const {
     return fmt::format("point {}", row + 1);
 }
@@ -39,14 +35,15 @@ std::uint64_t PathFeeder::whole_row(std::uint32_t row) const noexcept {
     return rows() >= ago ? rows() - ago : row;
 }
 
-std::unique_ptr<PathFeeder> make_feeder(PathInput& input, PathSink& sink) {
-    if (input.within_tolerance()) {
-        return std::make_unique<ElementFeeder>(input, sink);
-    }
+std::unique_ptr<PathFeeder> make_feeder(PathInput& input, MoveStream& stream) {
+    return std::make_unique<ElementFeeder>(input, stream);
+}
+
+std::unique_ptr<PathFeeder> make_feeder(PathInput& input, WaypointSink sink) {
     if (input.segments() != nullptr) {
         return std::make_unique<NothingToFeed>(input.points_read());
     }
-    return std::make_unique<WaypointFeeder>(input, sink);
+    return std::make_unique<WaypointFeeder>(input, std::move(sink));
 }
 
 } // namespace splinefeed::host

@@ -2,12 +2,13 @@
 // PathFeeder: the way of an input into its curve. CurveWatch: whoever looks at the curve before it is planned.
 #pragma once
 
-#include "host_sim/planning/path_sink.hpp"
+#include "host_sim/program/move_source.hpp"
 #include "host_sim/program/path_input.hpp"
-#include "splinefeed/s1_curve/curve_segment.hpp"
+#include "splinefeed/move_stream/move_stream.hpp"
+#include "splinefeed/s1_curve/waypoint.hpp"
 
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace splinefeed::host {
@@ -45,16 +46,12 @@ public:
         PerAxis<Position> position{}; ///< of the waypoint, of the start, or the end of the last move
         const SourceStep* move{};     ///< it pushed this move; null: none; valid until the next call
         const SourceStep* step{};     ///< a dwell or an event behind the moves so far; null: none; valid as above
-        std::optional<std::uint32_t>
-            row{};                    ///< of the last move before the step that has a length; none: there was none
-        std::uint32_t short_rows = 0; ///< rows behind that one: moves without a length, of which a chain may take some
+        std::uint32_t moves = 0;      ///< so many moves are before the step
+        bool stops = false;           ///< the machine stands at the end of the moves before
     };
     /// Pushes what comes next, or finishes the curve; false if there is nothing. Throws InputError; the curve then ends
     /// with what came before. @pre the curve is starved
     virtual bool more(Pushed& pushed) = 0;
-    /// The machine needs what there is, and the input pauses: a move that waits for the step behind it is pushed, with
-    /// a stop at its end. false: none waits. @pre the curve is starved
-    virtual bool release(Pushed& pushed);
     /// Whether more() would return without waiting; waits for that up to the given time.
     [[nodiscard]] virtual bool wait_for_row(Patience patience) = 0;
     /// Whether more() has nothing until an input has answered: MoveSource::answer(), of program().
@@ -76,7 +73,15 @@ public:
     virtual void passed(std::uint32_t /*row*/) {}
 };
 
-/// Both must outlive it. @param sink  of the curve that the input asks for
-[[nodiscard]] std::unique_ptr<PathFeeder> make_feeder(PathInput& input, PathSink& sink);
+/// Where waypoints go: the curve that is made of them, whatever its scalar is.
+struct WaypointSink {
+    std::function<Status(const Waypoint<double>&, Role)> push; ///< errors: those of WaypointCurve::push()
+    std::function<Status()> finish;
+};
+
+/// Of moves. Both must outlive it. @pre input.within_tolerance()
+[[nodiscard]] std::unique_ptr<PathFeeder> make_feeder(PathInput& input, MoveStream& stream);
+/// Of any other curve.
+[[nodiscard]] std::unique_ptr<PathFeeder> make_feeder(PathInput& input, WaypointSink sink);
 
 } // namespace splinefeed::host

@@ -2,6 +2,7 @@
 #include "host_sim/planning/planned_path.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/interruption.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/planning/scalar_path.hpp"
 
@@ -15,12 +16,12 @@ constexpr int most_answers = 100; // that are taken for granted before a run
 
 template <Scalar S>
 std::optional<std::uint64_t> look(PathInput& input, CurveWatch& watch) {
-    WatchedCurve<S> watched(input, watch);
-    PathFeeder& feeder = *watched.feeder;
+    ScalarPath<S> path(input, nullptr, watch, {});
+    PathFeeder& feeder = path.feeder();
     CurveSegment<S> segment;
     int answers = 0;
     for (Pull pull = Pull::starved; pull != Pull::finished && answers <= most_answers;
-         pull = watched.tee.next(segment)) {
+         pull = path.tee().next(segment)) {
         Interruption::point();
         PathFeeder::Pushed ignored;
         if (pull == Pull::starved && feeder.awaits_answer()) {
@@ -28,37 +29,55 @@ std::optional<std::uint64_t> look(PathInput& input, CurveWatch& watch) {
             ++answers;
         }
         if (pull == Pull::starved) {
+            path.go_on();
             static_cast<void>(feeder.more(ignored));
         }
     }
-    if (watched.tee.failure()) {
-        std::rethrow_exception(watched.tee.failure());
+    if (path.tee().failure()) {
+        std::rethrow_exception(path.tee().failure());
     }
     return answers == 0 ? std::optional(feeder.rows()) : std::nullopt;
+}
+
+template <Scalar S>
+std::unique_ptr<PlannedPath> plan(PathInput& input, const MachineDescription& machine, CurveWatch& watch,
+                                  const PlannerChoice& choice) {
+    return std::make_unique<PlannedPath>(std::make_shared<ScalarPath<S>>(input, &machine, watch, choice));
 }
 
 } // namespace
 
 template <Scalar S>
 PlannedPath::Statistics ScalarPath<S>::statistics() const {
-    Statistics out;
-    const Trajectory<S>& trajectory = planner_.trajectory();
+    PlannedPath::Statistics out;
+    const Trajectory<S>& trajectory = stream_->trajectory();
     out.scalar = scalar_name<S>();
-    out.jerk_scalar = planner_.jerk_scalar();
+    out.jerk_scalar = planner_->jerk_scalar();
     out.length_mm = length_to_mm(trajectory.arc_length().travelled());
-    out.curve_segments = watched_.tee.segments();
-    out.counts = watched_.curve.counts();
-    if (!limits_.jerk_limited) { // else that counts the window of the plan that another one refines
+    out.curve_segments = tee_.segments();
+    if (!curve_) {
+        out.counts = stream_->counts();
+    }
+    if (!limits_->jerk_limited) { // else that counts the window of the plan that another one refines
         out.window_limited = trajectory.feed_plan().window_limited();
     }
-    planner_.visit_jerk([&](const auto& plan) {
+    planner_->visit_jerk([&](const auto& plan) {
         out.searched_legs = plan.searched_legs();
         out.slow_legs = plan.slow_legs();
     });
-    out.curve_bytes = watched_.curve.bytes();
-    out.plan_bytes = planner_.bytes();
+    out.curve_bytes = curve_ ? curve_->bytes() : sizeof(TolerancePath<S>);
+    out.plan_bytes = planner_->bytes();
     out.stream_bytes = sizeof(SegmentStream<S>);
     return out;
+}
+
+Pull PlannedPath::next(FeedSegment& out, Supply supply) {
+    Interruption::point();
+    const Pull pull = stream_->next(out, supply, WorkBudget::unlimited);
+    if (pull == Pull::item) {
+        out.waypoint = feeder_->row_of(out.waypoint);
+    }
+    return pull;
 }
 
 std::size_t read_window(std::string_view text) {
@@ -72,11 +91,11 @@ std::size_t read_window(std::string_view text) {
 std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine, CurveWatch& watch,
                                        const PlannerChoice& choice) {
     switch (input.scalar()) {
-    case ScalarKind::fixed: return std::make_unique<ScalarPath<Fixed>>(input, machine, watch, choice);
-    case ScalarKind::float32: return std::make_unique<ScalarPath<float>>(input, machine, watch, choice);
+    case ScalarKind::fixed: return plan<Fixed>(input, machine, watch, choice);
+    case ScalarKind::float32: return plan<float>(input, machine, watch, choice);
     case ScalarKind::float64: break;
     }
-    return std::make_unique<ScalarPath<double>>(input, machine, watch, choice);
+    return plan<double>(input, machine, watch, choice);
 }
 
 std::optional<std::uint64_t> look_through(PathInput& input, CurveWatch& watch) {

@@ -8,14 +8,17 @@
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
-#include "splinefeed/s3_feed_plan/motion_plan.hpp"
-#include "splinefeed/s3_feed_plan/steering/steering.hpp"
-#include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
+
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
 
 namespace splinefeed::host {
 
@@ -34,8 +37,7 @@ inline constexpr std::size_t longest_window = 1'000'000; ///< cells
 /// The look-ahead of --window, 10 to longest_window cells. Throws UsageError.
 [[nodiscard]] std::size_t read_window(std::string_view text);
 
-/// The only door between the scalar of a plan and what lies behind it: one virtual call a segment. Steering and answers
-/// are those of Trajectory.
+/// What has the scalar of the plan is behind stream().
 class PlannedPath {
 public:
     struct Statistics {
@@ -52,28 +54,29 @@ public:
         std::size_t stream_bytes = 0;
     };
 
-    PlannedPath() = default;
-    PlannedPath(const PlannedPath&) = delete;
-    PlannedPath& operator=(const PlannedPath&) = delete;
-    virtual ~PlannedPath() = default;
+    /// @param path  of a machine
+    template <class ScalarPath>
+    explicit PlannedPath(std::shared_ptr<ScalarPath> path)
+        : stream_(&path->stream()), feeder_(&path->feeder()), failure_(&path->tee().failure()),
+          statistics_([&path = *path] { return path.statistics(); }), memory_(std::move(path)) {}
 
-    /// What has to be fed when next() says `starved`.
-    [[nodiscard]] virtual PathFeeder& feeder() noexcept = 0;
-
-    virtual Pull next(FeedSegment& out, UnderrunPolicy underrun) = 0;
-    [[nodiscard]] virtual Pull state() const noexcept = 0;
-    [[nodiscard]] virtual Activity activity() const noexcept = 0;
-    [[nodiscard]] virtual Status status() const noexcept = 0;
-    virtual bool stand(FeedSegment& out) = 0;
-
-    virtual void hold() noexcept = 0;
-    virtual void resume() noexcept = 0;
-    virtual void abort() noexcept = 0;
-    virtual void override_feed(double ratio) noexcept = 0;
-
+    /// What has to be fed when next() says `starved`, unless the machine stands for something.
+    [[nodiscard]] PathFeeder& feeder() noexcept { return *feeder_; }
+    [[nodiscard]] MoveStream& stream() noexcept { return *stream_; }
+    /// MoveStream::next(); the segment names the row of its waypoint in the input.
+    Pull next(FeedSegment& out, Supply supply);
     /// Why the curve ended before its end: what the watch has thrown; null: nothing.
-    [[nodiscard]] virtual const std::exception_ptr& failure() const noexcept = 0;
-    [[nodiscard]] virtual Statistics statistics() const = 0;
+    [[nodiscard]] const std::exception_ptr& failure() const noexcept { return *failure_; }
+    [[nodiscard]] Statistics statistics() const { return statistics_(); }
+
+private:
+    friend struct splinefeed::CounterSeam;
+
+    MoveStream* stream_;
+    PathFeeder* feeder_;
+    const std::exception_ptr* failure_;
+    std::function<Statistics()> statistics_;
+    std::shared_ptr<void> memory_;
 };
 
 /// The input in its scalar, with the planner that the machine's limits need. Throws InputError where the limits do not

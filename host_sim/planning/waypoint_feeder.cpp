@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -22,8 +23,8 @@ bool same_point(const WaypointRow& a, const WaypointRow& b) {
 
 } // namespace
 
-WaypointFeeder::WaypointFeeder(PathInput& input, PathSink& sink)
-    : input_(&input), sink_(&sink), input_rows_(input.rows()), lines_(remembered) {}
+WaypointFeeder::WaypointFeeder(PathInput& input, WaypointSink sink)
+    : input_(&input), sink_(std::move(sink)), input_rows_(input.rows()), lines_(remembered) {}
 
 void WaypointFeeder::read_all() {
     WaypointRow row;
@@ -95,7 +96,7 @@ bool WaypointFeeder::more(Pushed& pushed) {
         waypoint.feed_mm_s = row.feed_mm_s;
         waypoint.max_feed_mm_s = row.max_feed_mm_s;
         waypoint.corner = row.corner;
-        if (const Status status = sink_->push(waypoint, role); !status.ok()) {
+        if (const Status status = sink_.push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));
         }
         pushed = {};
@@ -106,7 +107,7 @@ bool WaypointFeeder::more(Pushed& pushed) {
     } catch (...) {
         if (!finished_) {
             finished_ = true;
-            static_cast<void>(sink_->finish());
+            static_cast<void>(sink_.finish());
         }
         throw;
     }
@@ -114,7 +115,7 @@ bool WaypointFeeder::more(Pushed& pushed) {
 
 void WaypointFeeder::finish() {
     finished_ = true;
-    if (const Status status = sink_->finish(); !status.ok()) {
+    if (const Status status = sink_.finish(); !status.ok()) {
         throw InputError(input_->name(), 0, describe(status.error()));
     }
 }

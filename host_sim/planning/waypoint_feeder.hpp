@@ -16,8 +16,8 @@ namespace splinefeed::host {
 /// first point at both ends, and the 16 points after the seam.
 class WaypointFeeder final : public PathFeeder {
 public:
-    /// Both must outlive it. @pre the input has waypoints, and its curve streams
-    WaypointFeeder(PathInput& input, PathSink& sink);
+    /// `input` must outlive it. @pre the input has waypoints, and its curve streams
+    WaypointFeeder(PathInput& input, WaypointSink sink);
 
     bool more(Pushed& pushed) override;
     [[nodiscard]] bool wait_for_row(Patience patience) override {
@@ -41,7 +41,7 @@ private:
     void finish();
 
     PathInput* input_;
-    PathSink* sink_;
+    WaypointSink sink_;
     std::unique_ptr<WaypointRows> input_rows_;
     std::vector<WaypointRow> all_;     // closed curves: the whole input
     std::vector<std::uint64_t> lines_; // line of row i at index i % remembered

@@ -23,6 +23,7 @@ enum class StepKind : std::uint8_t { move, dwell, event, nothing };
 struct SourceStep {
     StepKind kind = StepKind::move;
     std::uint64_t line = 0; ///< of its source; 0: unknown
+    std::uint64_t row = 0;  ///< of a move: of its waypoint or element, from 0
 
     PathElement<double> move{};
     /// Of a Bezier segment from an interpreter in Fixed: its points, which may have more digits than double.
@@ -66,13 +67,11 @@ public:
     /// The answer that the program waits for. @pre as above
     [[nodiscard]] virtual int expected_answer() const noexcept { return 0; }
 
-    /// Whether a move says itself that the machine has to stand at its end, before the step that needs it is known.
-    [[nodiscard]] virtual bool knows_stops() const noexcept { return true; }
     /// The path has taken a move. Not all are: some have no length.
     virtual void pushed(const SourceStep& /*step*/) {}
     /// Number of waypoints, elements or lines so far.
     [[nodiscard]] virtual std::uint64_t rows() const noexcept = 0;
-    /// Of a move, from 0, as they were delivered: the index of its waypoint, element or move, modulo 2^32.
+    /// Of a move, from 0, as the path has taken them: the index of its waypoint, element or move, modulo 2^32.
     [[nodiscard]] virtual std::uint32_t row_of(std::uint32_t move) const noexcept = 0;
     /// Line of a row in the file; 0: unknown.
     [[nodiscard]] virtual std::uint64_t line_of_row(std::uint64_t row) const noexcept = 0;

@@ -59,6 +59,12 @@ void MotionRecord::start(const PerAxis<Position>& position) {
     programmed_.add(point);
 }
 
+void MotionRecord::stop() {
+    if (!rows_.empty()) {
+        rows_.back().stop_at_end = true;
+    }
+}
+
 void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64_t line) {
     rows_.push_back({line, rapid, move.mode == PathMode::exact_stop, move.stop_at_end});
     ThinnedPath::Point point{.line = line,

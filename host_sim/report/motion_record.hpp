@@ -61,6 +61,8 @@ public:
     /// Where a program begins, and its moves in their order.
     void start(const PerAxis<Position>& position);
     void move(const PathElement<double>& move, bool rapid, std::uint64_t line);
+    /// The machine stands at the end of the last one.
+    void stop();
     /// A point that the path passes. More than most_waypoints would cover the path: none are kept.
     void waypoint(const PerAxis<Position>& position);
     /// How far the path is from the program somewhere on the way to a row.

@@ -23,8 +23,7 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
       live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
                                input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
-      share_(description.settings), steps_(figures, !arguments.quiet, live, arguments.terminal, arguments.record),
-      program_(outputs.elements(), arguments.report, arguments.record),
+      share_(description.settings), program_(outputs.elements(), arguments.report, arguments.record),
       work_(asked_.measures && !live.is_real() && arguments.record == nullptr && input.within_tolerance()),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
@@ -34,6 +33,7 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                             .work = &work_,
                             .share = &share_}),
       path_(plan_path(input, description, watch_, arguments.planner)), feeder_(path_->feeder()),
+      stream_(path_->stream()), steps_(figures, stream_, !arguments.quiet, live, arguments.terminal, arguments.record),
       machine_(description, figures.segments_per_sample,
                {.enforce = arguments.enforce,
                 .measures = arguments.measures,
@@ -55,7 +55,7 @@ void Motion::execute_all() {
         if (live_->over()) {
             break;
         }
-        if (paused_ && feeder_.wait_for_row(Clock::duration::zero())) {
+        if (paused_ && !stream_.stands() && feeder_.wait_for_row(Clock::duration::zero())) {
             read();
         }
         const bool dwells = dwell(segment);
@@ -76,7 +76,7 @@ void Motion::execute_all() {
             stood_s_ += segment.duration_ticks / (ticks_per_us * 1e6);
             steps_.stood(segment);
         } else if (pull(segment)) {
-            steps_.begin(segment, machine_.cycle_time_s());
+            steps_.begin(machine_.cycle_time_s());
             pass(segment.waypoint);
             if (!execute_first(segment)) {
                 break;
@@ -85,14 +85,16 @@ void Motion::execute_all() {
                 asked_.report->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
             show_progress();
-        } else if (path_->state() == Pull::held) {
+        } else if (stream_.state() == Pull::held) {
             if (!stand()) {
                 break;
             }
-        } else if (path_->state() != Pull::finished &&
-                   feeder_.wait_for_row(late_ ? Clock::duration::zero() : wait_slice)) {
+        } else if (stream_.stands()) {
+            paused_.reset(); // the step for which it stands comes next
+        } else if (stream_.state() != Pull::finished &&
+                   feeder_.wait_for_row(late() ? Clock::duration::zero() : wait_slice)) {
             read();
-        } else if (path_->state() == Pull::finished || !wait()) {
+        } else if (stream_.state() == Pull::finished || !wait()) {
             break;
         }
     }
@@ -116,34 +118,38 @@ void Motion::show_progress() {
     progress_->show({reached.moves, reached.line, static_cast<double>(live_->executed()) * segment_s, true, place});
 }
 
-// The input pauses: a machine that moves cannot wait, one that stands does for a while.
-bool Motion::late() const {
-    return paused_ && live_->has_room() &&
-           (moves_ || feeder_.awaits_answer() || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
+// The input pauses: a machine that moves cannot wait, and goes on along what is known; behind a while the last move
+// ends at rest.
+Supply Motion::supply() const {
+    if (!paused_ || !live_->has_room()) {
+        return Supply::flows;
+    }
+    const bool pauses = Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms);
+    return pauses ? Supply::pauses : moves_ ? Supply::late : Supply::flows;
 }
 
 // All that is known is travelled. False where nothing will ever move the machine.
 bool Motion::wait() {
     paused_ = paused_.value_or(Clock::now());
-    PathFeeder::Pushed pushed;
-    if (late_ && feeder_.release(pushed)) {
-        measure(pushed);
-        return true;
-    }
     if (moves_ || held_ != Held::by_machine) {
-        if (!late_ || moves_ || segments_ == 0) {
+        if (!late() || moves_ || segments_ == 0) {
             return true;
         }
         FeedSegment segment;
-        return !path_->stand(segment) || execute(segment); // drives that wait for more before they begin get it
+        return !stream_.stand(segment) || execute(segment); // drives that wait for more before they begin get it
     }
     return false;
 }
 
 bool Motion::pull(FeedSegment& segment) {
     const Clock::time_point start = live_->is_real() ? Clock::now() : Clock::time_point{};
-    late_ = late();
-    const bool item = path_->next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
+    supply_ = supply();
+    if (supply_ == Supply::pauses && stream_.keeps_back()) {
+        PathFeeder::Pushed stop;
+        stop.stops = true;
+        measure(stop);
+    }
+    const bool item = path_->next(segment, supply_) == Pull::item;
     planning_ += live_->is_real() ? Clock::now() - start : Clock::duration{};
     if (item && segments_ == 0 && path_->failure()) { // nothing has moved yet
         std::rethrow_exception(path_->failure());
@@ -159,10 +165,10 @@ void Motion::operate() {
             asked_.record->operated(machine_.cycle_time_s(), events_[operated_]);
         }
         switch (events_[operated_].operation) {
-        case Operation::hold: path_->hold(); break;
-        case Operation::resume: path_->resume(); break;
-        case Operation::abort: path_->abort(); break;
-        case Operation::override_feed: path_->override_feed(events_[operated_].value); break;
+        case Operation::hold: stream_.hold(); break;
+        case Operation::resume: stream_.resume(); break;
+        case Operation::abort: stream_.abort(); break;
+        case Operation::override_feed: stream_.override_feed(Fixed::from_double(events_[operated_].value)); break;
         }
     }
 }
@@ -171,7 +177,7 @@ void Motion::operate() {
 void Motion::obey_machine() {
     if (held_ != Held::by_machine && live_->hold_asked()) {
         held_ = Held::by_machine;
-        path_->hold();
+        stream_.hold();
     }
     const UserSteering steering = live_->take_steering();
     switch (steering) {
@@ -180,7 +186,7 @@ void Motion::obey_machine() {
     case UserSteering::suspend:
     case UserSteering::held:
         held_ = held_ == Held::no ? Held::by_user : held_;
-        path_->hold();
+        stream_.hold();
         if (steering == UserSteering::suspend) {
             suspend_.ask();
         } else if (steering == UserSteering::held && !SignalWatch::interrupted()) {
@@ -192,7 +198,7 @@ void Motion::obey_machine() {
         suspend_.forget();
         if (held_ != Held::by_machine) {
             held_ = Held::no;
-            path_->resume();
+            stream_.resume();
         }
         break;
     }
@@ -208,7 +214,7 @@ bool Motion::stand() {
         asked_.record->waits(MotionRecord::Why::held);
     }
     FeedSegment segment;
-    return path_->stand(segment) && execute(segment);
+    return stream_.stand(segment) && execute(segment);
 }
 
 // Whether the program wants the machine to stand for another segment.
@@ -216,7 +222,7 @@ bool Motion::dwell(FeedSegment& segment) {
     if (moves_ || held_ == Held::by_machine || steps_.empty()) {
         return false;
     }
-    const bool stands = steps_.stands(machine_.position_mm(), machine_.cycle_time_s());
+    const bool stands = steps_.stands(machine_.cycle_time_s());
     if (const auto answer = steps_.take_answer()) {
         feeder_.program()->answer(*answer);
     }
@@ -224,7 +230,7 @@ bool Motion::dwell(FeedSegment& segment) {
         return false;
     }
     if (steps_.moved()) {
-        return path_->stand(segment);
+        return stream_.stand(segment);
     }
     steps_.at_start(segment);
     return true;
@@ -335,7 +341,7 @@ bool Motion::execute(FeedSegment& segment) {
         failure_ = std::current_exception(); // the drives need it all the same
     }
     const bool begins_at_rest = segment.start_velocity == PerAxis<std::int64_t>{};
-    const bool rest = path_->activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
+    const bool rest = stream_.activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
@@ -365,6 +371,9 @@ void Motion::measure(const PathFeeder::Pushed& pushed) {
     program_.see(pushed);
     if (!asked_.measures) {
         return;
+    }
+    if (pushed.stops) {
+        work_.add([this] { deviation_.stop(); });
     }
     if (pushed.start) {
         deviation_.start(pushed.position);

@@ -82,7 +82,8 @@ private:
     void show_progress();
     bool pull(FeedSegment& segment);
     void read();
-    [[nodiscard]] bool late() const;
+    [[nodiscard]] Supply supply() const;
+    [[nodiscard]] bool late() const noexcept { return supply_ != Supply::flows; }
     [[nodiscard]] bool wait();
     void operate();
     void obey_machine();
@@ -116,12 +117,13 @@ private:
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
-    ProgramSteps steps_;
     ProgramObserver program_;
     BackgroundWork work_; // what is measured, where nobody else looks at it meanwhile
     PathWatch watch_;
     std::unique_ptr<PlannedPath> path_;
     PathFeeder& feeder_; // of the path
+    MoveStream& stream_; // likewise
+    ProgramSteps steps_;
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;
     std::size_t operated_ = 0; // events that have acted so far
@@ -136,7 +138,7 @@ private:
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;
     bool moves_ = false;                                        // the axes move at the end of the last segment
-    bool late_ = false;                                         // the last pull could not wait for input
+    Supply supply_ = Supply::flows;                             // at the last pull
     std::optional<Clock::time_point> paused_;                   // since this time there was no input
     enum class Held : std::uint8_t { no, by_user, by_machine }; // by the machine: the run ends there
     Held held_ = Held::no;

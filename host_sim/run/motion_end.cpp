@@ -51,12 +51,12 @@ std::string Motion::run(std::optional<std::uint64_t> waypoints) {
 bool Motion::come_to_rest(const std::string& broken) {
     const bool held = failure_ != nullptr && broken.empty() && moves_;
     const auto next = [this](FeedSegment& out) {
-        return way_ ? way_->next(out) : path_->next(out, UnderrunPolicy::drain) == Pull::item;
+        return way_ ? way_->next(out) : path_->next(out, Supply::late) == Pull::item;
     };
     if (held && way_) {
         way_->hold();
     } else if (held) {
-        path_->hold();
+        stream_.hold();
     }
     FeedSegment segment;
     while (held && moves_ && next(segment) && machine_.submit(segment) &&
@@ -88,12 +88,12 @@ void Motion::require_end() {
     }
     if (path_->failure()) {
         keep_failure(path_->failure());
-    } else if (const Status status = path_->status(); !status.ok()) {
+    } else if (const Status status = stream_.status(); !status.ok()) {
         keep_failure(std::make_exception_ptr(InputError(input_->name(), 0, describe(status.error()))));
     }
-    if (path_->activity() == Activity::aborted) {
+    if (stream_.activity() == Activity::aborted) {
         stopped_ = "aborted by an event";
-    } else if (path_->activity() == Activity::held && path_->state() == Pull::held && held_ != Held::by_machine) {
+    } else if (stream_.activity() == Activity::held && stream_.state() == Pull::held && held_ != Held::by_machine) {
         stopped_ = "held, and no event resumes it";
     }
     work_.finish();
@@ -136,7 +136,7 @@ void Motion::require_tolerance() {
     if (!input_->within_tolerance()) {
         return;
     }
-    if (path_->state() == Pull::finished && stopped_.empty()) {
+    if (stream_.state() == Pull::finished && stopped_.empty()) {
         deviation_.finish();
     }
     if (asked_.enforce && stopped_.empty()) {

@@ -51,6 +51,9 @@ void ProgramObserver::see(const PathFeeder::Pushed& pushed) {
     if (record_ != nullptr && pushed.start) {
         record_->start(pushed.position);
     }
+    if (record_ != nullptr && pushed.stops) {
+        record_->stop();
+    }
     if (record_ != nullptr && pushed.move != nullptr) {
         record_->move(pushed.move->move, pushed.move->rapid, pushed.move->line);
     }

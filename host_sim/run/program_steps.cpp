@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <stdexcept>
 #include <utility>
 
 namespace splinefeed::host {
@@ -21,44 +20,18 @@ constexpr int units_per_control = 6;
 
 } // namespace
 
-// Rows are counted modulo 2^32, and the machine is less than 2^31 of them ahead.
-const PendingStep* PendingSteps::passed(std::uint32_t row) const noexcept {
-    if (steps_.empty()) {
+// The first step if the motion has come to it.
+const PendingStep* ProgramSteps::due() const noexcept {
+    if (pending_.empty()) {
         return nullptr;
     }
-    const PendingStep& first = steps_.front();
-    return !first.row || static_cast<std::int32_t>(row - *first.row - first.short_rows) > 0 ? &first : nullptr;
-}
-
-const PendingStep* PendingSteps::reached(std::optional<std::uint32_t> row, const PerAxis<double>& position_mm,
-                                         int axes) const noexcept {
-    if (steps_.empty()) {
-        return nullptr;
-    }
-    const PendingStep& first = steps_.front();
-    if (row.has_value() != first.row.has_value() || (row && *row - *first.row > first.short_rows)) {
-        return nullptr;
-    }
-    for (unsigned k = 0; row && k < static_cast<unsigned>(axes); ++k) {
-        if (!(std::fabs(position_mm[k] - to_mm(first.place[k])) < same_place_mm)) {
-            return nullptr;
-        }
-    }
-    return &first;
-}
-
-PendingStep PendingSteps::take() {
-    PendingStep first = std::move(steps_.front());
-    steps_.pop_front();
-    return first;
+    const PendingStep& first = pending_.front();
+    return (first.stops ? stream_->stands() : stream_->passed(first.moves)) ? &first : nullptr;
 }
 
 void ProgramSteps::add(const PathFeeder::Pushed& pushed) {
     if (pushed.start) {
-        start_ = place_ = pushed.position;
-    }
-    if (pushed.move != nullptr) {
-        place_ = pushed.position;
+        start_ = pushed.position;
     }
     if (pushed.step == nullptr) {
         return;
@@ -69,13 +42,16 @@ void ProgramSteps::add(const PathFeeder::Pushed& pushed) {
         ++summary_.dwells;
         summary_.dwell_s += step.dwell_s;
     }
-    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.row, place_,
-                  pushed.short_rows});
+    pending_.push_back({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.moves});
 }
 
 void ProgramSteps::happen(double time_s) {
-    const PendingStep step = pending_.take();
+    const PendingStep step = std::move(pending_.front());
+    pending_.pop_front();
     left_ticks_ = 0;
+    if (step.stops) {
+        stream_->go_on();
+    }
     if (step.kind != StepKind::event) {
         return;
     }
@@ -105,14 +81,11 @@ void ProgramSteps::happen(double time_s) {
     }
 }
 
-void ProgramSteps::begin(const FeedSegment& segment, double time_s) {
-    while (const PendingStep* const step = pending_.passed(segment.waypoint)) {
-        if (step->stops) {
-            throw std::logic_error(fmt::format("the motion has passed line {} without standing for it", step->line));
-        }
+void ProgramSteps::begin(double time_s) {
+    moved_ = true;
+    for (const PendingStep* step = due(); step != nullptr && !step->stops; step = due()) {
         happen(time_s);
     }
-    row_ = segment.waypoint;
 }
 
 // The machine stands until it has come to the step's place, the spindle turns as the step says, the input has answered,
@@ -154,8 +127,8 @@ bool ProgramSteps::waits_for_user(const PendingStep& step) {
     return !pause_.answered();
 }
 
-bool ProgramSteps::stands(const PerAxis<double>& position_mm, double time_s) {
-    while (const PendingStep* const step = pending_.reached(row_, position_mm, figures_->axes)) {
+bool ProgramSteps::stands(double time_s) {
+    while (const PendingStep* const step = due()) {
         if (left_ticks_ > 0) {
             return true;
         }

@@ -106,12 +106,11 @@ double planned_s(const HelpArguments& arguments, const RunMachine& machine, doub
     NoWatch nobody;
     const auto path = plan_path(input, machine.machine, nobody, planner);
     PathFeeder& feeder = path->feeder();
-    path->override_feed(feed_factor);
+    path->stream().override_feed(Fixed::from_double(feed_factor));
     std::uint64_t ticks = 0;
     std::optional<std::uint32_t> row;
     FeedSegment segment;
-    for (Pull pull = path->next(segment, UnderrunPolicy::wait); pull != Pull::finished;
-         pull = path->next(segment, UnderrunPolicy::wait)) {
+    for (Pull pull = Pull::starved; pull != Pull::finished; pull = path->next(segment, Supply::flows)) {
         if (pull == Pull::item) {
             ticks += segment.duration_ticks;
             if (row != segment.waypoint) {
@@ -127,6 +126,7 @@ double planned_s(const HelpArguments& arguments, const RunMachine& machine, doub
         if (feeder.awaits_answer()) {
             feeder.program()->answer(feeder.program()->expected_answer());
         }
+        path->stream().go_on();
         static_cast<void>(feeder.more(ignored));
     }
     return static_cast<double>(ticks) / (ticks_per_us * 1e6);

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "host_sim/planning/machine_limits.hpp"
-#include "host_sim/planning/planned_trajectory.hpp"
+#include "host_sim/planning/planner_memory.hpp"
+#include "host_sim/program/gcode/parameter_memory.hpp"
 
-#include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/controller/line_motion.hpp"
+#include "splinefeed/controller/travel_guard.hpp"
+#include "splinefeed/move_stream/scalar_stream.hpp"
+#include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/spline_points.hpp"
-
-#include <optional>
-#include <vector>
 
 namespace splinefeed::host {
 
@@ -17,27 +18,24 @@ class ServedMotion {
 public:
     /// Throws InputError where the machine's limits do not go together. `settings` must outlive it.
     ServedMotion(const MachineDescription& machine, const ControllerSettings& settings)
-        : limits_(machine_limits<Fixed>(machine)), window_(PlannerChoice{}.window_cells),
-          motion_(settings, limits_, planner(), rules_cast<Fixed>(machine.tolerances.rules), &points_) {}
+        : limits_(machine_limits<Fixed>(machine, PlannerChoice{}.sampled())), planner_(limits_, {}),
+          guard_(settings.travel, limits_.axes),
+          stream_(limits_, planner_.planner(), rules_cast<Fixed>(machine.tolerances.rules), &guard_),
+          motion_(settings, stream_, &points_, &expression_) {}
     ServedMotion(const ServedMotion&) = delete;
     ServedMotion& operator=(const ServedMotion&) = delete;
 
     [[nodiscard]] LineMotion& motion() noexcept { return motion_; }
 
 private:
-    [[nodiscard]] Planner<Fixed>& planner() {
-        if (!limits_.jerk_limited) {
-            return acceleration_.emplace(window_);
-        }
-        return jerk_.emplace(window_).planner;
-    }
-
     MotionLimits<Fixed> limits_;
-    std::vector<PlannedCell<Fixed>> window_;
-    std::optional<AccelerationPlanner<Fixed>> acceleration_; // one of the two
-    std::optional<hal::JerkMemory<Fixed, double>> jerk_;
-    SplinePoints<Fixed> points_;
-    ScalarMotion<Fixed> motion_;
+    PlannerMemory<Fixed> planner_;
+    TravelGuard<Fixed> guard_;
+    ScalarStream<Fixed> stream_;
+    SplinePoints<ProgramScalar> points_;
+    ParameterMemory parameters_;
+    Expression expression_{parameters_};
+    LineMotion motion_;
 };
 
 } // namespace splinefeed::host

@@ -181,7 +181,7 @@ void Server::suspend() {
 }
 
 bool Server::is_at_rest() const {
-    return live_->stands() && motion_->at_rest() && controller_.state() != ControllerState::home;
+    return live_->stands() && motion_->stream().at_rest() && controller_.state() != ControllerState::home;
 }
 
 void Server::step() {
@@ -191,7 +191,7 @@ void Server::step() {
     while (live_->has_room() && (more = controller_.next(segment, live_->is_dry(), now_ms()) == Pull::item)) {
         live_->submit(segment);
     }
-    if (!more && motion_->at_rest() && (motion_->exhausted() || live_->is_dry())) {
+    if (!more && motion_->stream().at_rest() && (motion_->exhausted() || live_->is_dry())) {
         live_->rest();
     }
 }
@@ -220,7 +220,7 @@ void Server::keep() {
 }
 
 void Server::run(SignalWatch& signals) {
-    for (bool reset = false; !leaves_ || !live_->stands() || !motion_->at_rest();) {
+    for (bool reset = false; !leaves_ || !live_->stands() || !motion_->stream().at_rest();) {
         door_->wait(period);
         obey(signals);
         leaves_ = leaves_ || (state_ != nullptr && state_->has_failed());

@@ -44,7 +44,7 @@ public:
     void next(std::size_t most, bool drain, host::KeptMotion& out) {
         while (out.size() < most) {
             FeedSegment segment;
-            state_ = path_->next(segment, drain ? UnderrunPolicy::drain : UnderrunPolicy::wait);
+            state_ = path_->next(segment, drain ? Supply::late : Supply::flows);
             if (state_ == Pull::item) {
                 keep(segment, out);
             } else if (state_ != Pull::starved || !read()) {
@@ -59,13 +59,13 @@ public:
     /// The next segment of standstill while the motion is held. Nothing: it does not stand.
     void stand(host::KeptMotion& out) {
         FeedSegment segment;
-        if (path_->stand(segment)) {
+        if (path_->stream().stand(segment)) {
             keep(segment, out);
         }
     }
 
     [[nodiscard]] int axes() const noexcept { return of_.machine.settings.axes; }
-    [[nodiscard]] host::PlannedPath& path() noexcept { return *path_; }
+    [[nodiscard]] MoveStream& steering() noexcept { return path_->stream(); }
     [[nodiscard]] const char* state() const noexcept {
         switch (state_) {
         case Pull::finished: return "finished";
@@ -114,7 +114,7 @@ private:
         if (path_->failure()) {
             std::rethrow_exception(path_->failure());
         }
-        if (const Status status = path_->status(); !status.ok()) {
+        if (const Status status = path_->stream().status(); !status.ok()) {
             throw host::InputError(input_name_, 0, describe(status.error()));
         }
     }
@@ -157,10 +157,11 @@ void bind_stream(py::module_& module) {
                  return kept(stream, [&](host::KeptMotion& out) { stream.next(most, drain, out); });
              })
         .def("stand", [](Stream& stream) { return kept(stream, [&](host::KeptMotion& out) { stream.stand(out); }); })
-        .def("hold", [](Stream& stream) { stream.path().hold(); })
-        .def("resume", [](Stream& stream) { stream.path().resume(); })
-        .def("abort", [](Stream& stream) { stream.path().abort(); })
-        .def("override", [](Stream& stream, double ratio) { stream.path().override_feed(ratio); })
+        .def("hold", [](Stream& stream) { stream.steering().hold(); })
+        .def("resume", [](Stream& stream) { stream.steering().resume(); })
+        .def("abort", [](Stream& stream) { stream.steering().abort(); })
+        .def("override",
+             [](Stream& stream, double ratio) { stream.steering().override_feed(Fixed::from_double(ratio)); })
         .def_property_readonly("state", &Stream::state);
 }
 

@@ -35,7 +35,7 @@ BEGIN {
     # interpreter has memory for curves through points.
     if (operated) {
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
-        split("Controller|DollarCommands|SpindleOrders;ScalarMotion" of "|14StepperMachine|DollarCommands;SettingList;(setting_rows|axis_settings).*_FUN;" \
+        split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion;ScalarStream" of ";SettingList;(setting_rows|axis_settings).*_FUN;" \
               "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$;" \
               "11Interpreter" of ";" (points ? "12SplinePoints" of : "^$"), may_call, ";")
     }
@@ -62,7 +62,7 @@ function quoted(line, key) {
         any_of[from] = may_call[pair + 1]
         next
     }
-    if (to == "__indirect_call" && from ~ /make|Sampler|SegmentStream|Trajectory|ScalarMotion/) {
+    if (to == "__indirect_call" && from ~ /make|Sampler|SegmentStream|Trajectory|ScalarStream/) {
         asks[from] = asks[from] method_at(place_of($0)) " "
     } else if (!((from, to) in known)) {
         known[from, to] = 1
@@ -72,7 +72,7 @@ function quoted(line, key) {
 
 # Which pair of may_call a function belongs to; 0: to none.
 function pair_of(from, i) {
-    if (from ~ "ScalarMotion" of) { return 0 }
+    if (from ~ "ScalarStream" of) { return 0 }
     for (i = 1; i in may_call; i += 2) {
         if (from ~ may_call[i]) { return i }
     }
@@ -148,7 +148,7 @@ END {
         if (!found && any_of[from] != "^$") { fail("nothing is known that " from " could call") }
     }
     for (from in asks) {
-        if (from ~ /ScalarMotion/) {
+        if (from ~ /ScalarStream/) {
             link(from, planner "|" plan "|" sampler)
         } else if (from ~ /make/) {
             link(from, planner)

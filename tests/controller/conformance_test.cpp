@@ -134,7 +134,8 @@ TEST_CASE("however often its state is asked for, lines are executed", "[controll
     const auto limits = *MotionLimits<double>::make(settings.machine);
     std::vector<PlannedCell<double>> window(64);
     AccelerationPlanner<double> planner(window);
-    ScalarMotion<double> motion(settings, limits, planner);
+    ScalarStream<double> stream(limits, planner, rules_cast<double>(path_rules(settings.machine)));
+    LineMotion motion(settings, stream);
     std::array<char, 1024> lines{};
     std::array<char, Controller::least_answers> answers{};
     Controller controller(settings, motion, machine, Controller::Memory{lines, answers});

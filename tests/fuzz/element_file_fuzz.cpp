@@ -3,8 +3,8 @@
 // is wrong.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
-#include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/element_file.hpp"
+#include "splinefeed/s1_blended_path/element_cast.hpp"
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 

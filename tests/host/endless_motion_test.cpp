@@ -49,8 +49,8 @@ Outcome run(const std::string& program, bool old, const MachineDescription& mach
     LiveMachine none;
     Motion motion(arguments.motion, machine, figures, input, path_limits, outputs, none);
     if (old) {
-        auto& path = dynamic_cast<ScalarPath<Fixed>&>(CounterSeam::path(motion));
-        CounterSeam::travelled(path.trajectory(), far_length, far_segments, far_segments);
+        auto& path = CounterSeam::path<ScalarPath<Fixed>>(motion);
+        CounterSeam::travelled(path.stream().trajectory(), far_length, far_segments, far_segments);
         CounterSeam::ran(motion, far_ticks, far_segments);
         CounterSeam::read(dynamic_cast<WaypointFeeder&>(path.feeder()), far_rows);
         CounterSeam::pushed(path.curve().waypoints(), static_cast<std::uint32_t>(far_rows));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_deviation.hpp"
 #include "host_sim/curve/segment_cast.hpp"
-#include "host_sim/program/element_cast.hpp"
+#include "splinefeed/s1_blended_path/element_cast.hpp"
 
 #include "host_sim/program/element_file.hpp"
 #include "host_sim/program/input_format.hpp"

@@ -29,10 +29,9 @@ struct Teed {
     /// The waypoints of the segments that were passed on, until there is none any more.
     std::vector<std::uint32_t> passed(const PathObservers& observers) {
         PathInput input(arguments, PathUse::executed, {.axes = {"x", "y", "z"}});
-        PathCurve<double> curve(input);
-        const auto feeder = make_feeder(input, curve);
         PathWatch watch(arguments.input, observers);
-        PathTee<double> tee(curve.source(), *feeder, watch);
+        ScalarPath<double> path(input, nullptr, watch, {});
+        PathTee<double>& tee = path.tee();
         std::vector<std::uint32_t> waypoints;
         CurveSegment<double> segment;
         for (;;) {
@@ -43,7 +42,7 @@ struct Teed {
                 break;
             } else {
                 PathFeeder::Pushed pushed;
-                static_cast<void>(feeder->more(pushed));
+                static_cast<void>(path.feeder().more(pushed));
             }
         }
         CHECK(tee.next(segment) == Pull::finished);

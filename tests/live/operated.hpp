@@ -32,7 +32,7 @@ public:
             live.submit(segment);
         }
         LineMotion& motion = motion_.motion();
-        if (!more && motion.at_rest() && (motion.exhausted() || live.is_dry())) {
+        if (!more && motion.stream().at_rest() && (motion.exhausted() || live.is_dry())) {
             live.rest();
         }
         std::array<char, 512> part{};

@@ -25,10 +25,10 @@ struct CounterSeam {
         motion.machine_.executed_ = segments;
         motion.segments_ = segments;
     }
-    /// Its path.
-    template <class Motion>
-    static auto& path(Motion& motion) {
-        return *motion.path_;
+    /// What its path is made of.
+    template <class ScalarPath, class Motion>
+    static ScalarPath& path(Motion& motion) {
+        return *static_cast<ScalarPath*>(motion.path_->memory_.get());
     }
     /// Rows that a WaypointFeeder has read.
     template <class Feeder>

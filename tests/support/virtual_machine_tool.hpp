@@ -5,10 +5,13 @@
 #pragma once
 
 #include "host_sim/machine/simulated_machine.hpp"
+#include "host_sim/program/gcode/parameter_memory.hpp"
 
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/controller/controller.hpp"
-#include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/controller/travel_guard.hpp"
+#include "splinefeed/move_stream/scalar_stream.hpp"
+#include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/spline_points.hpp"
 
 #include <cmath>
@@ -209,10 +212,10 @@ class ControlledTool {
 public:
     ControlledTool()
         : settings(settings_of_machine_tool()), machine(settings), limits_(*MotionLimits<S>::make(settings.machine)),
-          window_(256), planner_(window_) {
-        motion_ = std::make_unique<ScalarMotion<S>>(settings, limits_, planner_,
-                                                    rules_cast<S>(path_rules(MachineSettings{})), &points_);
-        controller = std::make_unique<Controller>(settings, *motion_, machine, Controller::Memory{lines_, answers_});
+          window_(256), planner_(window_), guard_(settings.travel, 3),
+          stream_(limits_, planner_, rules_cast<S>(path_rules(MachineSettings{})), &guard_),
+          motion_(settings, stream_, &points_, &expression_) {
+        controller = std::make_unique<Controller>(settings, motion_, machine, Controller::Memory{lines_, answers_});
     }
 
     void send(std::string_view bytes) { controller->receive(bytes, now_); }
@@ -243,8 +246,12 @@ private:
     MotionLimits<S> limits_;
     std::vector<PlannedCell<S>> window_;
     AccelerationPlanner<S> planner_;
-    SplinePoints<S> points_;
-    std::unique_ptr<ScalarMotion<S>> motion_;
+    TravelGuard<S> guard_;
+    ScalarStream<S> stream_;
+    SplinePoints<ProgramScalar> points_;
+    host::ParameterMemory parameters_;
+    Expression expression_{parameters_};
+    LineMotion motion_;
     std::array<char, 4096> lines_{};
     std::array<char, 16384> answers_{};
     std::uint32_t now_ = 1000;

@@ -23,10 +23,10 @@ namespace {
 
 void obey(PlannedPath& path, const OperatorEvent& event) {
     switch (event.operation) {
-    case Operation::hold: path.hold(); break;
-    case Operation::resume: path.resume(); break;
-    case Operation::abort: path.abort(); break;
-    case Operation::override_feed: path.override_feed(event.value); break;
+    case Operation::hold: path.stream().hold(); break;
+    case Operation::resume: path.stream().resume(); break;
+    case Operation::abort: path.stream().abort(); break;
+    case Operation::override_feed: path.stream().override_feed(Fixed::from_double(event.value)); break;
     }
 }
 
@@ -70,17 +70,18 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
             for (; obeyed < events.size() && events[obeyed].time_s <= simulated.cycle_time_s() + 1e-9; ++obeyed) {
                 obey(*path, events[obeyed]);
             }
-            const bool moves = path->next(segment, UnderrunPolicy::wait) == Pull::item;
-            if (!moves && path->state() == Pull::held) {
-                if (obeyed == events.size() || !path->stand(segment)) {
+            const bool moves = path->next(segment, Supply::flows) == Pull::item;
+            if (!moves && path->stream().state() == Pull::held) {
+                if (obeyed == events.size() || !path->stream().stand(segment)) {
                     run.fault = "held without an order, or where it has not begun";
                     break;
                 }
-            } else if (!moves && path->state() == Pull::finished) {
+            } else if (!moves && path->stream().state() == Pull::finished) {
                 run.ended = true;
                 break;
             } else if (!moves) {
                 PathFeeder::Pushed ignored;
+                path->stream().go_on();
                 static_cast<void>(path->feeder().more(ignored));
                 continue;
             }

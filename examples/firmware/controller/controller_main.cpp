@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reference firmware: a machine that senders operate, by the protocol of grbl. docs/how-to/port_to_a_board.md
 //
-//   sender ── UART ── ByteLine ── Controller, ScalarMotion ── StepperMachine ── ring of parts ── StepGenerator ── pins
+//   sender ── UART ── ByteLine ── Controller, LineMotion ── StepperMachine ── ring of parts ── StepGenerator ── pins
 //                     (tick)      └────────────── main loop ─────────────┘                       (tick)
 #include "controller/byte_line.hpp"
 #include "controller/operator_settings.hpp"
@@ -11,7 +11,8 @@
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/base/slot.hpp"
 #include "splinefeed/controller/controller.hpp"
-#include "splinefeed/controller/scalar_motion.hpp"
+#include "splinefeed/controller/travel_guard.hpp"
+#include "splinefeed/move_stream/scalar_stream.hpp"
 #include "splinefeed/s0_program/spline_points.hpp"
 
 namespace firmware {
@@ -28,16 +29,18 @@ splinefeed::Slot<ByteLine> line;
 splinefeed::Slot<StepperMachine> stepper;
 splinefeed::Slot<std::array<splinefeed::PlannedCell<Real>, board::window>> window;
 splinefeed::Slot<splinefeed::AccelerationPlanner<Real>> planner;
-splinefeed::Slot<splinefeed::ScalarMotion<Real>> motion;
+splinefeed::Slot<splinefeed::TravelGuard<Real>> guard;
+splinefeed::Slot<splinefeed::ScalarStream<Real>> stream;
+splinefeed::Slot<splinefeed::LineMotion> motion;
 splinefeed::Slot<Controller> controller;
 std::array<char, operator_settings.receive_bytes> lines_memory;
 std::array<char, Controller::least_answers> answers_memory;
 
 /// The memory of curves through points, on a board that has some for it.
 template <bool has_it>
-splinefeed::PointCurve<Real>* curve_memory() noexcept {
+splinefeed::PointCurve<splinefeed::ProgramScalar>* curve_memory() noexcept {
     if constexpr (has_it) {
-        static splinefeed::Slot<splinefeed::SplinePoints<Real>> points;
+        static splinefeed::Slot<splinefeed::SplinePoints<splinefeed::ProgramScalar>> points;
         return &points.build();
     } else {
         return nullptr;
@@ -122,8 +125,9 @@ int main() {
     line.build();
     const bool by_watchdog = board::watchdog_bit(); // in motion, as a rule
     stepper.build(generator, !by_watchdog);
-    motion.build(operator_settings, *limits, planner.build(window.build()), path_rules,
-                 curve_memory<board::curves_through_points>());
+    stream.build(*limits, planner.build(window.build()), path_rules,
+                 &guard.build(operator_settings.travel, static_cast<int>(axes)));
+    motion.build(operator_settings, *stream, curve_memory<board::curves_through_points>());
     controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
     board::start_timer();
     board::start_watchdog();

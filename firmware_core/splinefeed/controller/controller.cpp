@@ -9,6 +9,10 @@ namespace {
 
 constexpr int most_free_moves = 100;
 
+Fixed percent(int value) noexcept {
+    return from_integer<Fixed>(value) / from_integer<Fixed>(100);
+}
+
 } // namespace
 
 Controller::Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
@@ -109,7 +113,8 @@ void Controller::act(RealtimeByte byte) noexcept {
 
 // A jog keeps its own feed.
 void Controller::set_overrides() noexcept {
-    motion_->set_overrides(jogging_ ? 100 : overrides_.feed, overrides_.rapids);
+    stream().override_feed(percent(jogging_ ? 100 : overrides_.feed));
+    stream().override_rapids(percent(overrides_.rapids));
     if (spindle_.override_percent() != overrides_.spindle) {
         spindle_.set_override(overrides_.spindle);
     }
@@ -137,7 +142,7 @@ void Controller::hold() noexcept {
     if (task_ == Task::home) {
         stop_quickly(Alarm::homing_reset);
     } else if (!is_locked() && !is_end(task_) && take(ModeEvent::hold)) { // a jog comes to its end
-        motion_->hold();
+        stream().hold();
     }
 }
 
@@ -157,7 +162,7 @@ void Controller::resume() noexcept {
         spindle_.restore();
     }
     if (held) {
-        motion_->resume();
+        stream().resume();
     }
 }
 
@@ -168,7 +173,7 @@ void Controller::open_door() noexcept {
         stop_waiting();
     } else if (take(ModeEvent::door)) {
         stop_waiting();
-        motion_->hold();
+        stream().hold();
         spindle_.suspend();
     }
 }

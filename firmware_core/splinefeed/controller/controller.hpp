@@ -90,7 +90,8 @@ private:
     void set_overrides() noexcept;
     void write_status(bool all) noexcept;
     [[nodiscard]] ControllerState activity() const noexcept;
-    [[nodiscard]] bool stands() const noexcept { return motion_->at_rest() && reading_.stands; }
+    [[nodiscard]] MoveStream& stream() const noexcept { return motion_->stream(); }
+    [[nodiscard]] bool stands() const noexcept { return stream().at_rest() && reading_.stands; }
     [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_; }
     bool take(ModeEvent event) noexcept {
         const Mode before = std::exchange(mode_, mode_behind(mode_, event));
@@ -124,6 +125,7 @@ private:
     void forget_lines() noexcept {
         lines_.clear();
         refused_lines_ = cancelled_lines_ = of_another_ = 0;
+        motion_->begin_program();
     }
 
     // controller_motion.cpp

@@ -29,7 +29,7 @@ void Controller::stop_quickly(Alarm alarm) noexcept {
 void Controller::brake() noexcept {
     reading_ = machine_->read();
     quick_ = quick_ || (!reading_.stands && machine_->halt());
-    motion_->abort();
+    stream().abort();
 }
 
 // A second reset, while the first one still brakes, is the hard one.
@@ -98,7 +98,7 @@ void Controller::raise(Alarm alarm, std::string_view sentence) noexcept {
 
 // An ending is over when the machine stands.
 void Controller::settle() noexcept {
-    const bool ended = quick_ ? reading_.stands : stands() && motion_->activity() == Activity::aborted;
+    const bool ended = quick_ ? reading_.stands : stands() && stream().activity() == Activity::aborted;
     if (!is_end(task_) || !ended) {
         return;
     }
@@ -116,7 +116,7 @@ void Controller::settle() noexcept {
         say("Stop");
     }
     if (in_door()) { // it cancelled a jog
-        motion_->hold();
+        stream().hold();
     }
     set_overrides();
 }

@@ -231,7 +231,7 @@ void Controller::execute_block(std::string_view text) noexcept {
     const bool begins = activity() == ControllerState::idle && now_ms_ - block_ms_ >= recount_ms;
     line_number_ = begins ? 1 : line_number_ + 1;
     block_ms_ = now_ms_;
-    const BlockStatus status = motion_->interpreter().push(text, line_number_);
+    const BlockStatus status = motion_->push(text, line_number_);
     if (!status.ok()) {
         refuse_block(status);
     } else if (mode_ == Mode::check) {

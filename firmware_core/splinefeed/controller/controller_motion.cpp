@@ -53,7 +53,7 @@ Pull Controller::next(FeedSegment& out, bool dry, std::uint32_t now_ms) noexcept
 
 // From standstill nothing moves before the spindle is as ordered, or while a tool is changed, but jogs.
 bool Controller::may_begin() noexcept {
-    return !motion_->at_rest() || ((mode_ != Mode::tool || jogging_) && spindle_.settles());
+    return !stream().at_rest() || ((mode_ != Mode::tool || jogging_) && spindle_.settles());
 }
 
 // Whether the motion waits for more lines. A stop that is planned stays: what the machine needs early, because its ring
@@ -64,7 +64,7 @@ Supply Controller::supply(bool dry) const noexcept {
         return Supply::pauses;
     }
     const bool pauses = now_ms_ - line_ms_ >= (jogging_ ? jog_pause_ms : pause_ms);
-    if (motion_->at_rest()) {
+    if (stream().at_rest()) {
         // Held it can wait, however slowly the lines come.
         return lines_.lines() == 0 && pauses && !holds() ? Supply::pauses : Supply::flows;
     }
@@ -93,14 +93,14 @@ void Controller::watch() noexcept {
     }
     if (task_ == Task::probe && reading_.touched) {
         task_ = Task::touched;
-        motion_->abort();
+        stream().abort();
     }
     if ((reading_.inputs & InputBits::door) != 0 && (task_ == Task::home || !is_locked())) {
         open_door();
     }
     if (mode_ == Mode::closing && spindle_.settles()) {
         take(ModeEvent::settled);
-        motion_->resume();
+        stream().resume();
     }
 }
 
@@ -220,7 +220,7 @@ bool Controller::carry_out() noexcept {
 
 void Controller::pause(std::string_view sentence) noexcept {
     take(ModeEvent::hold);
-    motion_->hold();
+    stream().hold();
     say(sentence);
 }
 
@@ -248,6 +248,7 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     case EventKind::program_end:
         spindle_.stop_all();
         motion_->interpreter().begin_next();
+        motion_->begin_program();
         line_number_ = 0;
         say("Pgm End");
         return;
@@ -282,7 +283,7 @@ void Controller::begin_probe() noexcept {
 
 bool Controller::finish_probe() noexcept {
     reading_ = machine_->read();
-    const bool ended = motion_->activity() == Activity::aborted || motion_->exhausted() || motion_->left_travel();
+    const bool ended = stream().activity() == Activity::aborted || motion_->exhausted() || motion_->left_travel();
     if (!ended || !stands()) {
         return false;
     }

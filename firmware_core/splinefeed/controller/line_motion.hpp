@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// LineMotion: a motion without end, fed line by line, whatever its scalar.
+// LineMotion: the lines of a controller into a motion without end.
 #pragma once
 
-#include "splinefeed/base/status.hpp"
 #include "splinefeed/controller/controller_settings.hpp"
-#include "splinefeed/s0_program/block_interpreter.hpp"
-#include "splinefeed/s0_program/program_item.hpp"
-#include "splinefeed/s3_feed_plan/steering/steering.hpp"
-#include "splinefeed/s4_segment_stream/feed_segment.hpp"
+#include "splinefeed/controller/line_conditions.hpp"
+#include "splinefeed/controller/line_numbers.hpp"
+#include "splinefeed/move_stream/move_stream.hpp"
+#include "splinefeed/s0_program/interpreter.hpp"
 
 namespace splinefeed {
+
+/// What lines are interpreted in, whatever the motion is planned in.
+#ifdef SPLINEFEED_WITHOUT_FIXED
+using ProgramScalar = float;
+#else
+using ProgramScalar = Fixed;
+#endif
 
 /// What became of the items of a line.
 enum class LineProgress : std::uint8_t {
@@ -18,14 +24,7 @@ enum class LineProgress : std::uint8_t {
     waits, ///< the first one is for the controller: waiting() says what it is, and whether the machine has to stand
 };
 
-/// What comes behind the moves so far.
-enum class Supply : std::uint8_t {
-    flows,  ///< more moves, in time
-    late,   ///< more moves, but the machine cannot wait for them: it goes on along what is known, and may have to brake
-    pauses, ///< nothing for now: the last move, or curve, ends at rest
-};
-
-/// Steering is that of Trajectory.
+/// Memory: that of Interpreter, and 1.5 KB.
 class LineMotion {
 public:
     /// What is not for the path.
@@ -40,54 +39,83 @@ public:
         [[nodiscard]] bool needs_rest() const noexcept { return kind != ItemKind::event || event.stops; }
     };
 
-    /// Lines are pushed here; then pass_on().
-    [[nodiscard]] virtual BlockInterpreter& interpreter() noexcept = 0;
+    /// All that it refers to must outlive it.
+    /// @param points  for curves through points, G5.5; null: they are refused
+    /// @param values  of words that are no plain numbers, and of conditions; null: they are refused
+    LineMotion(const ControllerSettings& settings, MoveStream& stream, PointCurve<ProgramScalar>* points = nullptr,
+               WordEvaluator* values = nullptr) noexcept
+        : settings_(&settings), stream_(&stream), values_(values), interpreter_(settings.program, values, points) {}
+
+    /// The next line; then pass_on(). Errors: BlockInterpreter::push(), LineConditions::take().
+    BlockStatus push(std::string_view text, std::uint32_t line) noexcept;
+    /// Forgets conditions that are open: a program begins.
+    void begin_program() noexcept { conditions_.clear(); }
+    [[nodiscard]] BlockInterpreter& interpreter() noexcept { return interpreter_; }
+    /// Where the motion is steered.
+    [[nodiscard]] MoveStream& stream() noexcept { return *stream_; }
+
     /// Passes the items of the line on.
-    virtual LineProgress pass_on() noexcept = 0;
+    LineProgress pass_on() noexcept;
     /// The same where nothing shall move.
-    virtual void leave_out() noexcept = 0;
+    void leave_out() noexcept;
     /// @pre pass_on() has said `waits`
-    [[nodiscard]] virtual const Waiting& waiting() const noexcept = 0;
+    [[nodiscard]] const Waiting& waiting() const noexcept { return waiting_; }
     /// It is carried out, or left out; pass_on() goes on behind it.
-    virtual void carried_out() noexcept = 0;
+    void carried_out() noexcept;
     /// Its move begins. @pre it is a probe move
-    virtual void begin_waiting() noexcept = 0;
+    void begin_waiting() noexcept;
     /// Passes a jog on, cut where it would leave the travel. @pre push_jog() was ok
-    virtual LineProgress pass_jog() noexcept = 0;
+    LineProgress pass_jog() noexcept;
     /// The oldest event whose place the motion has come to. false: there is none
-    virtual bool take_event(ProgramEvent& out) noexcept = 0;
+    bool take_event(ProgramEvent& out) noexcept;
 
     /// The next segment.
-    virtual Pull next(FeedSegment& out, Supply supply) noexcept = 0;
-    /// Plans ahead what the path has, so that it takes more moves. Returns whether it does so now, and did not before.
-    virtual bool look_ahead() noexcept = 0;
+    Pull next(FeedSegment& out, Supply supply) noexcept;
+    /// MoveStream::look_ahead(), for the work of a call.
+    bool look_ahead() noexcept { return stream_->look_ahead(settings_->work_a_call); }
     /// Whether all that is known has been delivered, to standstill.
-    [[nodiscard]] virtual bool exhausted() const noexcept = 0;
-    /// Whether the last segment ended at rest.
-    [[nodiscard]] virtual bool at_rest() const noexcept = 0;
+    [[nodiscard]] bool exhausted() const noexcept { return stream_->exhausted() && !interpreter_.has_curve(); }
     /// The line of the program that a segment of that waypoint belongs to, as the interpreter was told; 0: unknown.
-    [[nodiscard]] virtual std::uint32_t line_of(std::uint32_t waypoint) const noexcept = 0;
+    [[nodiscard]] std::uint32_t line_of(std::uint32_t waypoint) const noexcept { return line_numbers_.find(waypoint); }
     /// Why the path ended before its end: a move leaves the travel, or what the counters hold.
-    [[nodiscard]] virtual bool left_travel() const noexcept = 0;
+    [[nodiscard]] bool left_travel() const noexcept { return refused_ || stream_->has_failed(); }
 
-    virtual void hold() noexcept = 0;
-    virtual void resume() noexcept = 0;
-    virtual void abort() noexcept = 0;
-    [[nodiscard]] virtual Activity activity() const noexcept = 0;
-    /// @param feed  per cent
-    /// @param rapids  likewise
-    virtual void set_overrides(int feed, int rapids) noexcept = 0;
     /// Goes on from where the motion stands: forgets what is left of it, also of a line, and what was asked of it. @pre
-    /// at_rest()
-    virtual void restart() noexcept = 0;
+    /// the stream is at rest
+    void restart() noexcept;
     /// The machine stands elsewhere: the motion begins anew there.
-    virtual void place(const PerAxis<Position>& position) noexcept = 0;
+    void place(const PerAxis<Position>& position) noexcept;
 
-protected:
-    LineMotion() = default;
-    LineMotion(const LineMotion&) = default;
-    LineMotion& operator=(const LineMotion&) = default;
-    ~LineMotion() = default;
+private:
+    static constexpr std::size_t most_events = 8;
+    struct Event {
+        ProgramEvent event{};
+        std::uint32_t behind = 0; // so many moves
+    };
+
+    void forget() noexcept;
+    [[nodiscard]] bool needs_rest() const noexcept;
+    [[nodiscard]] bool is_due_at_once() const noexcept;
+    LineProgress pass_item() noexcept;
+    LineProgress pass_move() noexcept;
+    [[nodiscard]] PathElement<ProgramScalar> element_of_item() const noexcept;
+    void let_go() noexcept;
+    [[nodiscard]] bool leaves_travel(const PerAxis<Position>& place) const noexcept;
+    void cut(PathElement<ProgramScalar>& element) const noexcept;
+
+    const ControllerSettings* settings_;
+    MoveStream* stream_;
+    WordEvaluator* values_;
+    LineConditions conditions_;
+    Interpreter<ProgramScalar> interpreter_;
+    ProgramItem<ProgramScalar> item_;
+    LineNumbers line_numbers_; // of the moves in the path
+    Waiting waiting_;
+    std::array<Event, most_events> events_{};
+    std::size_t event_count_ = 0;
+    bool item_pending_ = false; // item_ is still to be passed on
+    bool waits_ = false;
+    bool refused_ = false; // the path took no move
 };
 
 } // namespace splinefeed

@@ -3,26 +3,30 @@
 #pragma once
 
 #include "splinefeed/controller/controller_settings.hpp"
-#include "splinefeed/s1_curve/curve_source.hpp"
+#include "splinefeed/s1_curve/curve_filter.hpp"
 
 namespace splinefeed {
 
 /// The same law as that of a run (travel_allowance_mm). Cost: a comparison for each Bezier point; near the end of
 /// travel a segment is halved until it is decided.
 template <Scalar S>
-class TravelGuard final : public CurveSource<S> {
+class TravelGuard final : public CurveFilter<S> {
 public:
-    TravelGuard(CurveSource<S>& source, const PerAxis<AxisTravel>& travel, int axes) noexcept
-        : source_(&source), travel_(&travel), axes_(axes) {}
+    /// `travel` must outlive it.
+    TravelGuard(const PerAxis<AxisTravel>& travel, int axes) noexcept : travel_(&travel), axes_(axes) {}
 
+    void begin(CurveSource<S>& source) noexcept override {
+        source_ = &source;
+        ended_ = false;
+    }
     Pull next(CurveSegment<S>& out) noexcept override;
     /// Whether it has met such a segment. From then on it is starved.
-    [[nodiscard]] bool has_ended() const noexcept { return ended_; }
+    [[nodiscard]] bool has_ended() const noexcept override { return ended_; }
 
 private:
     [[nodiscard]] bool leaves(const CurveSegment<S>& segment) const noexcept;
 
-    CurveSource<S>* source_;
+    CurveSource<S>* source_ = nullptr;
     const PerAxis<AxisTravel>* travel_;
     int axes_;
     bool ended_ = false;

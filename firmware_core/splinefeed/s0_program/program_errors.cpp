@@ -28,6 +28,8 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::not_in_dialect, "this dialect does not have the word"},
     {ProgramError::o_word,
      "O words, M70 to M73, M98 and M99 need the file; they are read by the host, in a line of their own"},
+    {ProgramError::condition_not_open, "no O word if of this label is open, or its else has been"},
+    {ProgramError::conditions_too_deep, "there are more than 10 conditions within each other"},
     {ProgramError::checksum_wrong, "the checksum behind * is not that of the line"},
     {ProgramError::grbl_command_unsupported, "of grbl's $ commands there is $H only"},
     {ProgramError::polar_unsupported, "polar coordinates (@ and ^) are of the dialect linuxcnc; write X and Y"},

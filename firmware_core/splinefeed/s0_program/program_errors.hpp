@@ -27,6 +27,8 @@ enum class ProgramError : std::uint8_t {
     m_code_unknown,
     not_in_dialect,
     o_word,
+    condition_not_open,
+    conditions_too_deep,
     checksum_wrong,
     grbl_command_unsupported,
     polar_unsupported,

@@ -101,7 +101,6 @@ public:
     [[nodiscard]] int expected_answer() const noexcept override {
         return asked_ == InputWait::rise || asked_ == InputWait::high ? 1 : 0;
     }
-    [[nodiscard]] bool knows_stops() const noexcept override { return false; }
     void pushed(const SourceStep& step) override { history_.add(step.line); }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return history_.moves(); }

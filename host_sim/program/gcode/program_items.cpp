@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/program_items.hpp"
 
-#include "host_sim/program/element_cast.hpp"
+#include "splinefeed/s1_blended_path/element_cast.hpp"
 
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s0_program/spline_points.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// PlannedTrajectory: the pipeline for a machine, with the planner that its limits need, and its memory.
+// PlannerMemory: the planner that the limits of a machine need, with its memory.
 #pragma once
 
 #include "host_sim/planning/planned_path.hpp"
 
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/hal/motion/jerk_memory.hpp"
-#include "splinefeed/trajectory.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -15,27 +14,24 @@
 namespace splinefeed::host {
 
 template <Scalar S>
-class PlannedTrajectory {
+class PlannerMemory {
 public:
-    /// All arguments must outlive it.
-    PlannedTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, const PlannerChoice& choice)
-        : window_(choice.window_cells) {
-        Planner<S>* planner = nullptr;
+    PlannerMemory(const MotionLimits<S>& limits, const PlannerChoice& choice) : window_(choice.window_cells) {
         if constexpr (!std::same_as<S, float>) { // which does not suffice for limits with jerk
             if (limits.jerk_limited && choice.jerk_scalar == ScalarKind::float32) {
-                planner = &in_float_.emplace(window_).planner;
+                planner_ = &in_float_.emplace(window_).planner;
             } else if (limits.jerk_limited) {
-                planner = &in_double_.emplace(window_).planner;
+                planner_ = &in_double_.emplace(window_).planner;
             }
         }
-        trajectory_ =
-            *Trajectory<S>::make(curve, limits, planner != nullptr ? *planner : acceleration_.emplace(window_));
+        if (planner_ == nullptr) {
+            planner_ = &acceleration_.emplace(window_);
+        }
     }
-    PlannedTrajectory(const PlannedTrajectory&) = delete;
-    PlannedTrajectory& operator=(const PlannedTrajectory&) = delete;
+    PlannerMemory(const PlannerMemory&) = delete;
+    PlannerMemory& operator=(const PlannerMemory&) = delete;
 
-    [[nodiscard]] Trajectory<S>& trajectory() noexcept { return trajectory_; }
-    [[nodiscard]] const Trajectory<S>& trajectory() const noexcept { return trajectory_; }
+    [[nodiscard]] Planner<S>& planner() noexcept { return *planner_; }
     /// The number type of a JerkPlanner; empty: the jerk is not limited.
     [[nodiscard]] const char* jerk_scalar() const noexcept {
         return in_float_ ? scalar_name<float>() : in_double_ ? scalar_name<double>() : "";
@@ -64,7 +60,7 @@ private:
     std::optional<AccelerationPlanner<S>> acceleration_; // one of the three
     std::optional<hal::JerkMemory<JerkScalar, double>> in_double_;
     std::optional<hal::JerkMemory<JerkScalar, float>> in_float_;
-    Trajectory<S> trajectory_;
+    Planner<S>* planner_ = nullptr;
 };
 
 } // namespace splinefeed::host
