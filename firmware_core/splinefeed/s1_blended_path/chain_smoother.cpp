@@ -13,7 +13,6 @@ namespace {
 constexpr std::uint64_t smoothed_points = 16; // that a new point moves, but for the last three
 
 constexpr double shortest_line = 4e-4;  // 0.1 nm: a shorter line is none
-constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
 constexpr double sharpest_turn = 0.684; // 2 sin(phi / 2) at 40 degrees
 constexpr double most_bow = 12.0;       // h phi in tolerances: a bow of 1.5
 constexpr double most_uneven = 12.0;    // longer line over the shorter one, unless h phi is below one tolerance

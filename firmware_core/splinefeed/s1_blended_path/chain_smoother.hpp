@@ -20,9 +20,8 @@ struct IndexedMove {
 /// passed on as one. Of more than 64 of them, each 32 are one. Other chains are lines in continuous mode that meet in
 /// small angles. A chain becomes quintics that join each other with direction and curvature (`joined`). Each is within
 /// the tolerance of the programmed lines, which is checked before it is passed on. That is chain_tolerance_mm, if it is
-/// less than tolerance_mm. What is left of the
-/// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
-/// and the chain ends there.
+/// less than tolerance_mm. What is left of the latter is that of the joints at the ends of the chain. Where not even
+/// one line becomes a quintic, it stays a line, and the chain ends there.
 ///
 /// Class: G2 along a chain; no curvature at its ends. Look-ahead: 64 points; what is passed on does not depend on the
 /// times of the calls. Memory: a ring of 72 points. Cost per point: 13 steps of smoothing, and about 50 points of a
@@ -48,6 +47,7 @@ public:
 
 private:
     static constexpr std::uint64_t look_ahead = 64;
+    static constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
     enum class Kind : std::uint8_t { nothing, single, chain };
 
     [[nodiscard]] static S tolerance_of(const PathElement<S>& element) noexcept {
