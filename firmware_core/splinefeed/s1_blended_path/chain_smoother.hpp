@@ -16,12 +16,11 @@ struct IndexedMove {
     std::uint32_t index = 0;
 };
 
-/// Passes moves on, but for chains. Lines that are one, to rounding or a part of the tolerance, and have one feed, are
-/// passed on as one. Of more than 64 of them, each 32 are one. Other chains are lines in continuous mode that meet in
-/// small angles. A chain becomes quintics that join each other with direction and curvature (`joined`). Each is within
-/// the tolerance of the programmed lines, which is checked before it is passed on. That is chain_tolerance_mm, if it is
-/// less than tolerance_mm. What is left of the latter is that of the joints at the ends of the chain. Where not even
-/// one line becomes a quintic, it stays a line, and the chain ends there.
+/// Passes moves on, but for chains: lines in continuous mode that meet in small angles. A chain becomes quintics that
+/// join each other with direction and curvature (`joined`). Each is within the tolerance of the programmed lines, which
+/// is checked before it is passed on. That is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
+/// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
+/// and the chain ends there.
 ///
 /// Class: G2 along a chain; no curvature at its ends. Look-ahead: 64 points; what is passed on does not depend on the
 /// times of the calls. Memory: a ring of 72 points. Cost per point: 13 steps of smoothing, and about 50 points of a
@@ -46,19 +45,13 @@ public:
     [[nodiscard]] std::uint64_t chains() const noexcept { return chains_; }
 
 private:
-    static constexpr std::uint64_t look_ahead = 64;
-    static constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
     enum class Kind : std::uint8_t { nothing, single, chain };
 
     [[nodiscard]] static S tolerance_of(const PathElement<S>& element) noexcept {
-        return element.mode == PathMode::exact_path
-                   ? S{}
-                   : scale2(smaller(element.tolerance_mm, element.chain_tolerance_mm), -chord_unit_log2);
+        return scale2(smaller(element.tolerance_mm, element.chain_tolerance_mm), -chord_unit_log2);
     }
-    [[nodiscard]] bool ends_there() const noexcept { return end_.stop_at_end || end_.mode == PathMode::exact_stop; }
     [[nodiscard]] bool goes_on(const PathElement<S>& element) const noexcept;
     [[nodiscard]] bool too_short(S length) const noexcept;
-    [[nodiscard]] S off_left_out(const PathElement<S>& element) const noexcept;
     [[nodiscard]] bool may_leave_out(const PathElement<S>& element) const noexcept;
     void restore() noexcept;
     void smooth_newest() noexcept;
@@ -72,7 +65,6 @@ private:
     [[nodiscard]] bool merged(std::uint64_t to) const noexcept;
     [[nodiscard]] S limit_of(std::uint64_t to) const noexcept;
     [[nodiscard]] std::uint64_t longest_piece(PathState<S>& end, BezierShape<S>& shape, S& limit) noexcept;
-    [[nodiscard]] bool pass_straight(PathElement<S>& out) noexcept;
     void pass_line(PathElement<S>& out) noexcept;
     [[nodiscard]] bool pass_piece(PathElement<S>& out) noexcept;
 
@@ -93,7 +85,6 @@ private:
     std::uint64_t span_ = 8;     // lines of the last quintic
     std::uint64_t chains_ = 0;
     Kind kind_ = Kind::nothing;
-    bool straight_ = false; // all of the chain that was passed on is lines
     bool has_pending_ = false;
     bool closed_ = false; // the chain has ended
     bool finished_ = false;
