@@ -34,6 +34,7 @@ BEGIN {
     # within a tolerance is guarded. Nobody evaluates expressions, and there is no table of tools. points: the
     # interpreter has memory for curves through points.
     if (operated) {
+        guard = "^_ZNK?10splinefeed11TravelGuard" of "(5begin|9has_ended)E"
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
         split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion;ScalarStream" of ";SettingList;(setting_rows|axis_settings).*_FUN;" \
               "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$;" \
@@ -149,7 +150,7 @@ END {
     }
     for (from in asks) {
         if (from ~ /ScalarStream/) {
-            link(from, planner "|" plan "|" sampler)
+            link(from, planner "|" plan "|" sampler "|" guard)
         } else if (from ~ /make/) {
             link(from, planner)
         } else if (from ~ /SegmentStream/) {

@@ -20,7 +20,7 @@ from conformance import cases, take  # of tests/serve, which operated_board has 
 from sender import Failed
 
 # The board has no home switches, no probe and no outputs, steps of 12.5 um, and numbers of its own.
-WITHOUT = {"home", "probe", "outputs", "fine", "numbers"}
+WITHOUT = {"expressions", "home", "probe", "outputs", "fine", "numbers"}
 WITHOUT_POINTS = {"lm3s6965"}  # no memory for curves through points
 GREETING = "Grbl 1.1h ['$' for help]"
 NUMBERS = """$0=50 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $10=3 $11=0.010 $12=0.002 $13=0 $20=1 $21=1 $22=0 $23=0 $24=0.000 $25=0.000 $26=0 $27=0.000

@@ -10,13 +10,6 @@
 
 namespace splinefeed {
 
-/// What lines are interpreted in, whatever the motion is planned in.
-#ifdef SPLINEFEED_WITHOUT_FIXED
-using ProgramScalar = float;
-#else
-using ProgramScalar = Fixed;
-#endif
-
 /// What became of the items of a line.
 enum class LineProgress : std::uint8_t {
     done,  ///< all of them are passed on

@@ -12,6 +12,13 @@
 
 namespace splinefeed {
 
+/// What programs are interpreted in, whatever the motion is planned in.
+#ifdef SPLINEFEED_WITHOUT_FIXED
+using ProgramScalar = float;
+#else
+using ProgramScalar = Fixed;
+#endif
+
 /// What comes behind the moves so far.
 enum class Supply : std::uint8_t {
     flows,  ///< more moves, in time: the motion waits for them
@@ -44,9 +51,10 @@ public:
     [[nodiscard]] virtual bool has_room() const noexcept = 0;
     /// The next move, from where the one before ends. false: it is too short to be one (below 0.1 um), and a stop at
     /// its end is one at the end of the move before. Errors: those of TolerancePath::push(); nothing has changed then.
-#define SPLINEFEED_PUSH(S) [[nodiscard]] virtual Result<bool> push(const PathElement<S>& move) noexcept = 0;
-    SPLINEFEED_EACH_SCALAR(SPLINEFEED_PUSH)
-#undef SPLINEFEED_PUSH
+    [[nodiscard]] virtual Result<bool> push(const PathElement<ProgramScalar>& move) noexcept = 0;
+#if __STDC_HOSTED__ // a firmware computes nothing in double
+    [[nodiscard]] virtual Result<bool> push(const PathElement<double>& move) noexcept = 0;
+#endif
     /// The machine stands at the end of the moves so far, until go_on(). false: there is no room yet, call it again.
     virtual bool stop() noexcept = 0;
     virtual void go_on() noexcept = 0;

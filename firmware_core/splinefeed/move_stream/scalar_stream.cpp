@@ -23,15 +23,6 @@ ScalarStream<S>::ScalarStream(int axes, const PathRules<S>& rules, CurveFilter<S
 }
 
 template <Scalar S>
-S ScalarStream<S>::in_scalar(Fixed value) noexcept {
-    if constexpr (std::same_as<S, Fixed>) {
-        return value;
-    } else {
-        return static_cast<S>(value.raw()) * S(0x1p-32);
-    }
-}
-
-template <Scalar S>
 CurveSource<S>& ScalarStream<S>::curve() noexcept {
     if (filter_ != nullptr) {
         return *filter_;

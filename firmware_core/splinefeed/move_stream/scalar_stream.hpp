@@ -30,12 +30,18 @@ public:
     Status place(const PerAxis<Position>& position) noexcept override;
     void restart() noexcept override;
     [[nodiscard]] bool has_room() const noexcept override { return !stops_ && path_->has_room(); }
-#define SPLINEFEED_PUSH(From)                                                                                          \
-    [[nodiscard]] Result<bool> push(const PathElement<From>& move) noexcept override {                                 \
-        return take(element_cast<S>(move));                                                                            \
+    [[nodiscard]] Result<bool> push(const PathElement<ProgramScalar>& move) noexcept override {
+        if constexpr (std::same_as<S, ProgramScalar>) { // without a copy on a chip's stack
+            return take(move);
+        } else {
+            return take(element_cast<S>(move));
+        }
     }
-    SPLINEFEED_EACH_SCALAR(SPLINEFEED_PUSH)
-#undef SPLINEFEED_PUSH
+#if __STDC_HOSTED__
+    [[nodiscard]] Result<bool> push(const PathElement<double>& move) noexcept override {
+        return take(element_cast<S>(move));
+    }
+#endif
     bool stop() noexcept override;
     void go_on() noexcept override {
         stops_ = false;
@@ -91,13 +97,13 @@ public:
         return trajectory_.activity();
     }
     void override_feed(Fixed ratio) noexcept override {
-        trajectory_.override_feed(in_scalar(ratio));
+        trajectory_.override_feed(converted<S>(ratio));
     }
     void override_rapids(Fixed ratio) noexcept override {
-        trajectory_.override_rapids(in_scalar(ratio));
+        trajectory_.override_rapids(converted<S>(ratio));
     }
     void limit_feed(Fixed mm_s) noexcept override {
-        trajectory_.limit_feed(in_scalar(mm_s));
+        trajectory_.limit_feed(converted<S>(mm_s));
     }
 
     /// What the plan reads.
@@ -114,7 +120,6 @@ public:
     }
 
 private:
-    [[nodiscard]] static S in_scalar(Fixed value) noexcept;
     Status begin_path() noexcept;
     [[nodiscard]] Result<bool> take(const PathElement<S>& move) noexcept;
     bool release(bool stops) noexcept;

@@ -6,14 +6,18 @@
 
 namespace splinefeed {
 
-/// By way of double: points of a Bezier segment in Fixed may lose digits that double does not have.
+/// Points of a Bezier segment in Fixed may lose digits that double does not have.
 template <Scalar To, Scalar From>
 [[nodiscard]] PathElement<To> element_cast(const PathElement<From>& element) noexcept {
     if constexpr (std::same_as<To, From>) {
         return element;
     } else {
         const auto number = [](From value) {
-            return from_double<To>(to_double(value));
+            if constexpr (std::same_as<To, Fixed>) {
+                return Fixed::from_double(to_double(value));
+            } else {
+                return to_floating<To>(value); // from Fixed to float without double, which a chip has not
+            }
         };
         PathElement<To> out;
         out.shape = element.shape;
