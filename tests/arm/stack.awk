@@ -34,11 +34,12 @@ BEGIN {
     # within a tolerance is guarded. Nobody evaluates expressions, and there is no table of tools. points: the
     # interpreter has memory for curves through points.
     if (operated) {
+        program = "INS_5FixedEE" # what programs are interpreted in
         guard = "^_ZNK?10splinefeed11TravelGuard" of "(5begin|9has_ended)E"
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
         split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion;ScalarStream" of ";SettingList;(setting_rows|axis_settings).*_FUN;" \
               "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$;" \
-              "11Interpreter" of ";" (points ? "12SplinePoints" of : "^$"), may_call, ";")
+              "11Interpreter" program ";" (points ? "12SplinePoints" program : "^$"), may_call, ";")
     }
 }
 

@@ -42,7 +42,7 @@ if [[ $cpu == cortex-m4f ]]; then
 fi
 if [[ $cpu != cortex-m0 ]]; then
     points=0
-    if arm-none-eabi-nm "$image" | grep -q SplinePoints; then points=1; fi
+    if arm-none-eabi-nm "$image" | grep SplinePoints >/dev/null; then points=1; fi
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
         bound=$(find "$core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
