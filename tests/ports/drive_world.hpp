@@ -180,7 +180,7 @@ public:
 private:
     // A hold travels what is ahead of the drives: the more, the longer they wait for a target on their wires.
     static double stop_ms(const std::string& profile) {
-        return profile == "cia402-kinco" ? 900.0 : profile == "oriental-az" ? 600.0 : 400.0;
+        return profile == "cia402-kinco" ? 750.0 : profile == "oriental-az" ? 500.0 : 400.0;
     }
     // Ramps of four times the machine file's acceleration: the path may use all of it.
     [[nodiscard]] std::string keys() const override {
