@@ -346,7 +346,7 @@ void TpMotion::plan() noexcept {
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
-        const Pull pull = stream_->next(out, urgent ? Supply::urgent : supply, urgent ? 1U : part);
+        const Pull pull = stream_->next(out, urgent ? Supply::urgent : stream_->early(supply), urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
             figures_.urgent += urgent ? 1U : 0U;

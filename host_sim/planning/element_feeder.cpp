@@ -57,12 +57,13 @@ bool ElementFeeder::take(Pushed& pushed) {
     if (step_.kind == StepKind::nothing) {
         return true;
     }
-    if (step_.stops && !stream_->stop()) {
+    const bool moves = step_.kind == StepKind::move;
+    behind_ = moves || step_.stops ? 0 : behind_ + 1;
+    pushed.stops = step_.stops || behind_ == most_behind;
+    if (pushed.stops && !(moves || !step_.stops ? stream_->rest() : stream_->stop())) {
         throw program_->refusal(step_, describe(Error::no_room));
     }
-    pushed.stops = step_.stops;
-    if (step_.kind == StepKind::move) {
-        stream_->go_on(); // nobody has anything to do there
+    if (moves) {
         take_move(pushed);
     } else {
         pushed.step = &step_;

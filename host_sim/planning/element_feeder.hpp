@@ -6,8 +6,12 @@
 
 namespace splinefeed::host {
 
+/// Behind most_behind steps without a move between them the machine stands, so that they happen: what waits for the end
+/// of the move that is kept back is bounded.
 class ElementFeeder final : public PathFeeder {
 public:
+    static constexpr std::size_t most_behind = 64;
+
     /// Both must outlive it. @pre input.within_tolerance()
     ElementFeeder(PathInput& input, MoveStream& stream);
 
@@ -33,7 +37,8 @@ private:
     const PathInput* input_;
     MoveStream* stream_;
     std::unique_ptr<MoveSource> program_;
-    SourceStep step_; // read last
+    SourceStep step_;        // read last
+    std::size_t behind_ = 0; // steps since the last move or stop
     bool started_ = false;
     bool finished_ = false;
 };

@@ -73,7 +73,7 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
 
 Pull PlannedPath::next(FeedSegment& out, Supply supply) {
     Interruption::point();
-    const Pull pull = stream_->next(out, supply, WorkBudget::unlimited);
+    const Pull pull = stream_->next(out, stream_->early(supply), WorkBudget::unlimited);
     if (pull == Pull::item) {
         out.waypoint = feeder_->row_of(out.waypoint);
     }

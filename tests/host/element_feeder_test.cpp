@@ -33,7 +33,7 @@ std::string steps_of(const std::string& program) {
         out += pushed.stops ? "|" : "";
         out += pushed.move != nullptr ? "m" : "";
         out += pushed.step == nullptr ? "" : pushed.step->kind == StepKind::dwell ? "d" : "e";
-        CHECK(stream.has_room() != (pushed.stops && pushed.move == nullptr));
+        CHECK(stream.has_room() == (pushed.step == nullptr || !pushed.step->stops));
         stream.go_on();
         while (stream.curve().next(segment) == Pull::item) {
         }
@@ -56,4 +56,14 @@ TEST_CASE("What does not stop the machine does not hide what does") {
     CHECK(steps_of("G1 X1 F600\n(MSG,a)\nG4 P1\nX3\n") == "Sme|dm");
     CHECK(steps_of("G1 X1 F600\nM64 P0\nX2\nM64 P1\nX3\n") == "Smemem");
     CHECK(steps_of("G1 X1 F600\nM64 P0\nM64 P1\n") == "Smee");
+}
+
+TEST_CASE("Events behind a move that waits are bounded: the machine stops there, and they happen") {
+    std::string program = "G1 X1 F600\n";
+    std::string expected = "Sm";
+    for (std::size_t i = 1; i <= 1000; ++i) {
+        program += "M64 P0\n";
+        expected += i % ElementFeeder::most_behind == 0 ? "|e" : "e";
+    }
+    CHECK(steps_of(program + "G4 P1\nX3\n") == expected + "|dm");
 }

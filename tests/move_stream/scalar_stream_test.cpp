@@ -80,8 +80,10 @@ TEMPLATE_TEST_CASE("the newest move is kept back until a pause, a stop or the en
         REQUIRE(of.stream.stop());
         CHECK_FALSE(of.stream.has_room());
         CHECK_FALSE(of.stream.stands());
+        CHECK(of.stream.closed());
+        CHECK(of.stream.early(Supply::flows) == Supply::late);
         CHECK(of.stream.push(of.line(20.0)).error() == Error::no_room);
-        CHECK(of.take(Supply::flows) > 0);
+        CHECK(of.take(Supply::late) > 0);
         CHECK(of.stream.stands());
         REQUIRE(of.stream.stop()); // one more thing to do there
         CHECK(of.stream.stands());
@@ -158,14 +160,14 @@ TEST_CASE("a hold ends no wait: the machine does not stand where it was asked to
     REQUIRE(of.stream.push(of.line(10.0)).value());
     REQUIRE(of.stream.stop());
     FeedSegment segment;
-    REQUIRE(of.stream.next(segment, Supply::flows, WorkBudget::unlimited) == Pull::item);
+    REQUIRE(of.stream.next(segment, Supply::late, WorkBudget::unlimited) == Pull::item);
     of.stream.hold();
-    of.take(Supply::flows);
+    of.take(Supply::late);
     CHECK(of.stream.at_rest());
     CHECK_FALSE(of.stream.stands());
     CHECK_FALSE(of.stream.passed(1));
     of.stream.resume();
-    of.take(Supply::flows);
+    of.take(Supply::late);
     CHECK(of.stream.stands());
 }
 

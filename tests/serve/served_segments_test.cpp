@@ -75,7 +75,7 @@ std::vector<FeedSegment> served(const RunMachine& machine, const std::string& pr
         CAPTURE(line, describe(status.error));
         REQUIRE(status.ok());
         for (LineProgress progress = motion.pass_on(); progress != LineProgress::done; progress = motion.pass_on()) {
-            take(Supply::flows);
+            take(progress == LineProgress::waits ? Supply::late : Supply::flows);
             if (progress == LineProgress::waits) {
                 REQUIRE(motion.exhausted());
                 motion.carried_out();

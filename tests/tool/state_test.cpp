@@ -129,7 +129,7 @@ TEST_CASE("A crash while the state is written leaves the old one or the new one"
     tool.write("a.ngc", program);
     const int rounds = splinefeed_test::rounds(10, 200);
     int written = 0;
-    double slow = 8.0; // a loaded host takes longer until the first state, which comes behind the whole file
+    double slow = 1.0; // a loaded host takes longer until the first state
     for (int i = 0; i < rounds; ++i) {
         const std::string wait = std::to_string(slow * (0.05 + 0.002 * (i * 37 % 100)));
         static_cast<void>(tool.shell("timeout -s KILL " + wait + " '" + tool_path() +

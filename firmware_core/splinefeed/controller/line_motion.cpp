@@ -76,11 +76,8 @@ bool LineMotion::leaves_travel(const PerAxis<Position>& place) const noexcept {
 
 LineProgress LineMotion::pass_move() noexcept {
     const bool leaves = item_.element.to != stream_->end() && leaves_travel(item_.element.to);
-    if (item_.stops_before || leaves) {
-        if (!stream_->stop()) {
-            return LineProgress::full;
-        }
-        stream_->go_on();
+    if ((item_.stops_before || leaves) && !stream_->rest()) {
+        return LineProgress::full;
     }
     if (leaves) {
         refused_ = true;
@@ -115,6 +112,9 @@ LineProgress LineMotion::pass_item() noexcept {
         return pass_move();
     }
     if (event_count_ == most_events) {
+        if (events_[0].behind == stream_->moves()) { // all behind one move: it ends at rest, and they happen
+            stream_->rest();
+        }
         return LineProgress::full;
     }
     events_[event_count_++] = {item_.event, stream_->moves()};
@@ -229,7 +229,8 @@ Pull LineMotion::next(FeedSegment& out, Supply supply) noexcept {
     if (supply == Supply::pauses) {
         let_go();
     }
-    return stream_->next(out, supply, settings_->work_a_call);
+    const bool full = event_count_ == most_events; // no more lines come
+    return stream_->next(out, full ? stream_->early(supply) : supply, settings_->work_a_call);
 }
 
 } // namespace splinefeed

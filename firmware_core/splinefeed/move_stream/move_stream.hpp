@@ -58,12 +58,25 @@ public:
     /// The machine stands at the end of the moves so far, until go_on(). false: there is no room yet, call it again.
     virtual bool stop() noexcept = 0;
     virtual void go_on() noexcept = 0;
+    /// The machine stands there, too, but nobody waits for it. false: there is no room yet.
+    bool rest() noexcept {
+        const bool taken = stop();
+        go_on();
+        return taken;
+    }
     /// No more moves will come. Errors: too_few_waypoints.
     virtual Status finish() noexcept = 0;
     /// Number of moves that were taken, modulo 2^32.
     [[nodiscard]] virtual std::uint32_t moves() const noexcept = 0;
     /// Whether the newest one is kept back.
     [[nodiscard]] virtual bool keeps_back() const noexcept = 0;
+    /// Whether they end at a stop, and the path has all of them: more moves change nothing of what is planned.
+    [[nodiscard]] virtual bool closed() const noexcept = 0;
+    /// Of who wants segments as early as they are certain. Who says `flows` all the same has less ahead, and stops
+    /// sooner when asked.
+    [[nodiscard]] Supply early(Supply supply) const noexcept {
+        return supply == Supply::flows && closed() ? Supply::late : supply;
+    }
     /// Where they end.
     [[nodiscard]] virtual const PerAxis<Position>& end() const noexcept = 0;
 

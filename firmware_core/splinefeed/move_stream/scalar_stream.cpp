@@ -38,7 +38,7 @@ Status ScalarStream<S>::begin_path() noexcept {
         filter_->begin(*path_);
     }
     moves_ = reached_ = 0;
-    holds_ = stops_ = finished_ = false;
+    held_.stop_at_end = holds_ = stops_ = false;
     exhausted_ = at_rest_ = true;
     return path_->start(end_);
 }
@@ -91,7 +91,7 @@ Result<bool> ScalarStream<S>::take(const PathElement<S>& move) noexcept {
         return length.error();
     }
     if (!(*length > S{})) {
-        held_.stop_at_end = held_.stop_at_end || move.stop_at_end;
+        held_.stop_at_end = held_.stop_at_end || (holds_ && move.stop_at_end);
         return false;
     }
     if (stops_ || !release(false)) {
@@ -116,27 +116,24 @@ Status ScalarStream<S>::finish() noexcept {
     if (!release(false)) {
         return Error::no_room;
     }
-    finished_ = true;
     return path_->finish();
 }
 
 template <Scalar S>
 Pull ScalarStream<S>::next(FeedSegment& out, Supply supply, unsigned work) noexcept {
-    const bool pauses = supply == Supply::pauses;
-    if (pauses) {
+    if (supply == Supply::pauses) {
         release(true);
     }
-    const bool closed = !holds_ && held_.stop_at_end; // nothing changes what is planned up to a stop
-    const UnderrunPolicy underrun = supply == Supply::urgent             ? UnderrunPolicy::urgent
-                                    : supply == Supply::flows && !closed ? UnderrunPolicy::wait
-                                                                         : UnderrunPolicy::drain;
+    const UnderrunPolicy underrun = supply == Supply::urgent  ? UnderrunPolicy::urgent
+                                    : supply == Supply::flows ? UnderrunPolicy::wait
+                                                              : UnderrunPolicy::drain;
     const Pull pull = trajectory_.next(out, underrun, work);
+    const bool ends = pull == Pull::finished || (pull == Pull::starved && closed() && supply != Supply::flows);
     if (pull == Pull::item) {
         moved_ = true;
         at_rest_ = out.ends_at_rest();
         reached_ = out.waypoint;
-    } else if (at_rest_ && !holds_ && (closed || finished_) && pull != Pull::held && pull != Pull::busy &&
-               activity() == Activity::running) {
+    } else if (ends && at_rest_ && activity() == Activity::running) {
         exhausted_ = true;
         reached_ = moves_;
     }

@@ -53,6 +53,9 @@ public:
     [[nodiscard]] bool keeps_back() const noexcept override {
         return holds_;
     }
+    [[nodiscard]] bool closed() const noexcept override {
+        return !holds_ && held_.stop_at_end;
+    }
     [[nodiscard]] const PerAxis<Position>& end() const noexcept override {
         return end_;
     }
@@ -137,9 +140,8 @@ private:
     std::uint32_t moves_ = 0;
     std::uint32_t reached_ = 0; // the move that the last segment belongs to
     bool holds_ = false;
-    bool stops_ = false;    // at the end of the moves so far
-    bool finished_ = false; // no more moves come
-    bool moved_ = false;    // a segment was delivered since place()
+    bool stops_ = false; // at the end of the moves so far
+    bool moved_ = false; // a segment was delivered since place()
     bool at_rest_ = true;
     bool exhausted_ = true;
 };
