@@ -39,6 +39,25 @@ bool at_end(const TextCursor& text) noexcept {
     return text.at_end() || text.peek() == '(' || text.peek() == ';';
 }
 
+enum class Word : std::uint8_t { if_, elseif, else_, endif, none };
+
+Word take_word(TextCursor& text) noexcept {
+    static constexpr std::string_view words[] = {"if"sv, "elseif"sv, "else"sv, "endif"sv}; // else behind elseif
+    unsigned found = 0;
+    while (found < 4 && !text.take(words[found])) {
+        ++found;
+    }
+    return static_cast<Word>(found);
+}
+
+void step_over_number(TextCursor& text) noexcept {
+    if (text.take('n')) {
+        while ((text.peek() >= '0' && text.peek() <= '9') || text.peek() == '.') {
+            text.step();
+        }
+    }
+}
+
 } // namespace
 
 bool LineConditions::executes() const noexcept {
@@ -47,14 +66,8 @@ bool LineConditions::executes() const noexcept {
 
 BlockStatus LineConditions::take(std::string_view line, WordEvaluator& values, const BlockInterpreter& control,
                                  bool& executes) noexcept {
-    enum class Word : std::uint8_t { if_, elseif, else_, endif };
-    static constexpr std::string_view words[] = {"if"sv, "elseif"sv, "else"sv, "endif"sv}; // else behind elseif
     TextCursor text(line);
-    if (text.take('n')) {
-        while ((text.peek() >= '0' && text.peek() <= '9') || text.peek() == '.') {
-            text.step();
-        }
-    }
+    step_over_number(text);
     const TextCursor begin = text;
     executes = this->executes();
     if (!text.take('o')) {
@@ -63,14 +76,10 @@ BlockStatus LineConditions::take(std::string_view line, WordEvaluator& values, c
     const bool outside = executes;
     executes = false;
     const std::uint64_t label = take_label(text);
-    unsigned found = 0;
-    while (found < 4 && !text.take(words[found])) {
-        ++found;
-    }
-    if (label == 0 || found == 4) {
+    const Word word = take_word(text);
+    if (label == 0 || word == Word::none) {
         return outside ? wrong(ProgramError::o_word, begin) : BlockStatus{}; // as any line that is left out
     }
-    const auto word = static_cast<Word>(found);
     Condition* const last = count_ > 0 ? &open_[count_ - 1] : nullptr;
     if (word != Word::if_ && (last == nullptr || last->label != label || (last->has_else && word != Word::endif))) {
         return wrong(ProgramError::condition_not_open, begin);
@@ -103,6 +112,7 @@ BlockStatus LineConditions::take(std::string_view line, WordEvaluator& values, c
         last->has_else = true;
         break;
     case Word::endif: --count_; break;
+    case Word::none: break;
     }
     return {};
 }
