@@ -38,6 +38,7 @@ struct ProgrammedMove {
     splinefeed::PathMode mode = splinefeed::PathMode::continuous;
     bool stop_at_end = false;
     double tolerance_mm = 0.01;
+    double chain_tolerance_mm = 100.0;
     double feed_mm_s = 0.0;
     PlaceMm from{};
     PlaceMm to{};
@@ -234,6 +235,7 @@ splinefeed::PathElement<S> element_of(const ProgrammedMove& move, int axes) {
     element.stop_at_end = move.stop_at_end;
     element.to = position_of<S>(move.to);
     element.tolerance_mm = from_double<S>(move.tolerance_mm);
+    element.chain_tolerance_mm = from_double<S>(move.chain_tolerance_mm);
     element.feed_mm_s = from_double<S>(move.feed_mm_s);
     for (unsigned k = 0; k < 3; ++k) {
         if (k < static_cast<unsigned>(max_axes)) {

@@ -228,7 +228,7 @@ void BlendedPath<S>::describe(const Entry& of, int degree, CurveSegment<S>& out)
 template <Scalar S>
 void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
     const Entry& present = entry(next_);
-    const bool last = ++piece_ == pieces_;
+    bool last = ++piece_ == pieces_;
     PerAxis<PerDegree<S>> points{};
     PerAxis<Position> there{};
     int degree = 1;
@@ -244,6 +244,14 @@ void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
         degree = piece_of(present.move, last, points, there);
     }
     describe(present, degree, out);
+    if (present.move.shape() == MoveShape::line && pass_part<S>(parts_, here_, axes_, there, out.waypoint)) {
+        ++counts_.through;
+        --piece_;
+        last = false;
+        for (const unsigned k : indices(axes_)) {
+            points[k][1] = distance<S>(here_[k], there[k], chord_unit_log2);
+        }
+    }
     out.origin = here_;
     out.end = there;
     out.assign(points);
@@ -340,6 +348,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
 template <Scalar S>
 void BlendedPath<S>::leave(CurveSegment<S>& out) noexcept {
     out.stop_at_end = stops_ && entry(next_).stop_at_end;
+    parts_.pass_before(entry(next_).index);
     before_ = after_;
     ++next_;
     stage_ = Stage::joint;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s1_blended_path/joint.hpp"
+#include "splinefeed/s1_blended_path/line_parts.hpp"
 #include "splinefeed/s1_blended_path/path_rules.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
 
@@ -50,6 +51,9 @@ public:
     Status finish() noexcept;
 
     Pull next(CurveSegment<S>& out) noexcept override;
+
+    /// Where moves end within a line. A segment ends there, where the line is not rounded.
+    [[nodiscard]] LineParts& parts() noexcept { return parts_; }
 
     /// Of the moves that were delivered.
     [[nodiscard]] const JointCounts& joints() const noexcept { return counts_; }
@@ -111,6 +115,7 @@ private:
     std::uint64_t known_ = 0; // moves pushed
     std::uint64_t next_ = 0;  // the present move
     JointCounts counts_{};
+    LineParts parts_;
 };
 
 } // namespace splinefeed

@@ -4,6 +4,7 @@
 
 #include "splinefeed/base/status.hpp"
 #include "splinefeed/s1_blended_path/chain_points.hpp"
+#include "splinefeed/s1_blended_path/line_parts.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 #include "splinefeed/s1_blended_path/path_state.hpp"
 
@@ -16,7 +17,9 @@ struct IndexedMove {
     std::uint32_t index = 0;
 };
 
-/// Passes moves on, but for chains: lines in continuous mode that meet in small angles. A chain becomes quintics that
+/// Passes moves on, but for chains. Lines that are one, to rounding or a part of the tolerance, and have one feed, are
+/// passed on as one for each 32 of them at most. Other chains are lines in continuous
+/// mode that meet in small angles. A chain becomes quintics that
 /// join each other with direction and curvature (`joined`). Each is within the tolerance of the programmed lines, which
 /// is checked before it is passed on. That is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
 /// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
@@ -39,12 +42,15 @@ public:
     void push(const PathElement<S>& element, std::uint32_t index) noexcept;
     void finish() noexcept { finished_ = true; }
     /// The next move to pass on; starved: it needs more to decide.
-    Pull next(IndexedMove<S>& out) noexcept;
+    /// @param parts  where moves end within a line that is passed on, in its order
+    Pull next(IndexedMove<S>& out, LineParts& parts) noexcept;
 
     /// Runs of lines that became quintics.
     [[nodiscard]] std::uint64_t chains() const noexcept { return chains_; }
 
 private:
+    static constexpr std::uint64_t look_ahead = 64;
+    static constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
     enum class Kind : std::uint8_t { nothing, single, chain };
 
     [[nodiscard]] static S tolerance_of(const PathElement<S>& element) noexcept {
@@ -52,6 +58,7 @@ private:
     }
     [[nodiscard]] bool goes_on(const PathElement<S>& element) const noexcept;
     [[nodiscard]] bool too_short(S length) const noexcept;
+    [[nodiscard]] S off_left_out(const PathElement<S>& element) const noexcept;
     [[nodiscard]] bool may_leave_out(const PathElement<S>& element) const noexcept;
     void restore() noexcept;
     void smooth_newest() noexcept;
@@ -65,6 +72,7 @@ private:
     [[nodiscard]] bool merged(std::uint64_t to) const noexcept;
     [[nodiscard]] S limit_of(std::uint64_t to) const noexcept;
     [[nodiscard]] std::uint64_t longest_piece(PathState<S>& end, BezierShape<S>& shape, S& limit) noexcept;
+    [[nodiscard]] bool pass_straight(PathElement<S>& out, LineParts& parts) noexcept;
     void pass_line(PathElement<S>& out) noexcept;
     [[nodiscard]] bool pass_piece(PathElement<S>& out) noexcept;
 
@@ -84,7 +92,9 @@ private:
     std::uint64_t front_ = 0;    // the point that was passed on last
     std::uint64_t span_ = 8;     // lines of the last quintic
     std::uint64_t chains_ = 0;
+    std::uint32_t passed_ = 0; // moves passed on, modulo 2^32
     Kind kind_ = Kind::nothing;
+    bool straight_ = false; // all of the chain that was passed on is lines
     bool has_pending_ = false;
     bool closed_ = false; // the chain has ended
     bool finished_ = false;

@@ -96,7 +96,7 @@ bool TolerancePath<S>::pass_on() noexcept {
         return false;
     }
     IndexedMove<S> move;
-    switch (chains_.next(move)) {
+    switch (chains_.next(move, blended_.parts())) {
     case Pull::item: break;
     case Pull::finished: static_cast<void>(blended_.finish()); return false;
     default: return false;
