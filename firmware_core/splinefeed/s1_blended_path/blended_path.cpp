@@ -162,7 +162,7 @@ void BlendedPath<S>::decide(std::uint64_t i) noexcept {
     const S tolerance = smaller(before.tolerance_at_end, after.tolerance) - before.left_out;
     before.joint =
         decide_joint(before.move, after.move, before.mode,
-                     {larger(S{}, tolerance), joint_tolerance_, sharpest_, rounds_curvature_, smooth_}, axes_);
+                     {larger(S{}, tolerance), joint_tolerance_, sharpest_, rounds_curvature_, smooth_, kink_}, axes_);
 }
 
 // What the joint at the end of move i wishes to take of the moves beside it.

@@ -17,9 +17,10 @@ namespace splinefeed {
 namespace {
 
 constexpr double reversal_half_cosine = 0.00436; // cos(179.5 degrees / 2)
-constexpr double corner_jump = 0.0174; // of the direction: just below a degree. An exact path rounds smaller ones
-constexpr double tangent_jump = 1e-4;  // a smaller one is no corner: the tolerance is that of tangents
-constexpr double least_way = 0.04;     // 1e-5 mm: a shorter blend is no faster than a stop
+constexpr double corner_jump = 0.0174;     // of the direction: just below a degree. An exact path rounds smaller ones
+constexpr double tangent_jump = 1e-4;      // a smaller one is no corner: the tolerance is that of tangents
+constexpr double least_way = 0.04;         // 1e-5 mm: a shorter blend is no faster than a stop
+constexpr double least_tolerance = 0.0164; // 4e-6 mm: a plan takes longer for a blend within less than for a stop
 constexpr double curvature_share = 0.011;
 constexpr double bent_share = 0.88; // of the way where a bent move may turn as the corner does
 constexpr int measured_places = 11;
@@ -94,6 +95,29 @@ void draw(const PathMove<S>& before, const PathMove<S>& after, S way, S w, int a
                     (literal<S>(0.9) - literal<S>(0.1) * w) * way, axes, out.points);
 }
 
+// Whether a plan passes the jumps of direction and curvature at the highest speed that it may have there.
+template <Scalar S>
+bool passes(const PassedKink<S>& kink, const PathState<S>& in, const PathState<S>& out, int axes) noexcept {
+    if (!(kink.fastest_mm_s > S{})) {
+        return false;
+    }
+    constexpr int per_mm = -bend_log2 - chord_unit_log2;
+    S speed_sq = kink.fastest_mm_s * kink.fastest_mm_s;
+    for (const unsigned k : indices(axes)) {
+        const S bend = scale2(larger(absolute(in.bend[k]), absolute(out.bend[k])), per_mm);
+        speed_sq = smaller(speed_sq, quotient_or_max(kink.acceleration_mm_s2[k], bend));
+    }
+    const S speed = square_root(speed_sq);
+    for (const unsigned k : indices(axes)) {
+        const S turn = absolute(out.tangent[k] - in.tangent[k]);
+        const S bend = scale2(absolute(out.bend[k] - in.bend[k]), per_mm);
+        if (turn > kink.sharpest || !((turn + bend * speed * kink.bend_s) * speed <= kink.turn_mm_s[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // The curvature in the middle of the cubic, (8/3) sin(phi/2) / (l cos^2(phi/2)).
 template <Scalar S>
 bool too_sharp(const Joint<S>& joint, S way) noexcept {
@@ -132,7 +156,11 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
     const S bend = distance_between(in.bend, out.bend, axes);
     const S rounding = in.bend_error + out.bend_error;
     const bool bends = !lines && bend > tolerances.smooth.bend_1_mm + rounding && (tolerances.curvature || !exact);
-    if (!(joint.tolerance > S{}) || (!(jump > tolerances.smooth.jump) && !bends)) {
+    const bool exactly = !(joint.tolerance > literal<S>(least_tolerance));
+    if (exactly && jump > literal<S>(corner_jump)) {
+        return joint;
+    }
+    if (exactly || (!(jump > tolerances.smooth.jump) && !bends) || passes(tolerances.kink, in, out, axes)) {
         joint.kind = JointKind::through;
         return joint;
     }

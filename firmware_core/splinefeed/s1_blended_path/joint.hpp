@@ -30,6 +30,7 @@ struct JointTolerances {
     SharpestBlend<S> sharpest{}; ///< its curvature in units of 2^-20 per chord unit
     bool curvature = true;       ///< an exact path is rounded where only its curvature jumps, too
     SmoothJoint<S> smooth{};     ///< its curvature likewise
+    PassedKink<S> kink{};
 };
 
 /// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint is a stop at a

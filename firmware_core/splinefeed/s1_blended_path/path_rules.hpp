@@ -24,6 +24,16 @@ struct SmoothJoint {
     S bend_1_mm{};                                             ///< of the curvature, at most
 };
 
+/// Kinks that stay: a plan keeps something of its limits beside them. The default: none.
+template <Scalar S>
+struct PassedKink {
+    PerAxis<S> turn_mm_s{};          ///< speed times the jump of an axis's direction, at most
+    PerAxis<S> acceleration_mm_s2{}; ///< a bent path is travelled within these,
+    S fastest_mm_s{};                ///< and this, at most
+    S bend_s{};   ///< a jump of the curvature counts as one of the direction, times this and the speed
+    S sharpest{}; ///< jump of the direction, at most
+};
+
 /// path_rules() makes them of a machine's numbers.
 template <Scalar S>
 struct PathRules {
@@ -34,6 +44,7 @@ struct PathRules {
     int chain_quarters = 4; ///< quarters of a move's tolerance that chains of short lines get, where the program does
                             ///< not say it
     SmoothJoint<S> smooth{};
+    PassedKink<S> kink{};
     PerAxis<bool> rotary{}; ///< axes that the feed does not count where others move
 };
 
@@ -42,6 +53,15 @@ template <Scalar S>
 [[nodiscard]] constexpr PathRules<S> rules_cast(const PathRules<double>& rules) noexcept {
     const SharpestBlend<double>& sharpest = rules.sharpest;
     const SmoothJoint<double>& smooth = rules.smooth;
+    PassedKink<S> kink{{},
+                       {},
+                       from_double<S>(rules.kink.fastest_mm_s),
+                       from_double<S>(rules.kink.bend_s),
+                       from_double<S>(rules.kink.sharpest)};
+    for (const unsigned k : indices(max_axes)) {
+        kink.turn_mm_s[k] = from_double<S>(rules.kink.turn_mm_s[k]);
+        kink.acceleration_mm_s2[k] = from_double<S>(rules.kink.acceleration_mm_s2[k]);
+    }
     return {
         from_double<S>(rules.joint_tolerance_mm),
         {from_double<S>(sharpest.curvature_1_mm), from_double<S>(sharpest.fading), from_double<S>(sharpest.half_sine)},
@@ -49,6 +69,7 @@ template <Scalar S>
         rules.chain_quarters,
         {larger(from_double<S>(smooth.jump), std::same_as<S, float> ? SmoothJoint<S>{}.jump : S{}),
          from_double<S>(smooth.bend_1_mm)},
+        kink,
         rules.rotary};
 }
 

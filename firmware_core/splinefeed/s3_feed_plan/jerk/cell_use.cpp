@@ -183,6 +183,9 @@ CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLi
             }
         }
     }
+    const R per_share = R(1) / node.most_share;
+    most.acceleration.most *= per_share;
+    most.jerk.most *= per_share;
     return most;
 }
 

@@ -90,22 +90,22 @@ R JerkCell<R>::largest_from_rest(unsigned moving) const noexcept {
         const R point[] = {first[0], first[1] + R(3.0) * l * rest.second,
                            first[2] + R(6.0) * l * middle + R(1.5) * l * l * third[0],
                            first[3] + R(9.0) * l * at.second + R(4.5) * l * l * third[1]};
-        const R share[] = {first[0], first[1] + R(0.5) * l * rest.second, first[2] + l * middle,
+        const R along[] = {first[0], first[1] + R(0.5) * l * rest.second, first[2] + l * middle,
                            first[3] + R(1.5) * l * at.second};
         R max_path_acceleration = R(0.0);
-        for (const R acceleration : share) {
+        for (const R acceleration : along) {
             max_path_acceleration = larger(max_path_acceleration, absolute(acceleration));
         }
         max_path_acceleration += R(1.5) * l * larger(rest.second_spread, at.second_spread);
-        largest_b =
-            smaller(largest_b, quotient_or_max(R(1.5) * l * limits.acceleration_mm_s2[k], max_path_acceleration));
+        largest_b = smaller(largest_b,
+                            quotient_or_max(R(1.5) * l * share * limits.acceleration_mm_s2[k], max_path_acceleration));
         R per_power = R(0.0);
         for (const R jerk : point) {
             per_power = larger(per_power, absolute(jerk) * R(2.0) / (R(9.0) * l * l) + at.third_spread);
         }
         // per_power b^(3/2) <= J
-        if (per_power * largest_b * square_root(largest_b) > limits.jerk_mm_s3[k]) {
-            largest_b = smaller(largest_b, power_two_thirds(limits.jerk_mm_s3[k] / per_power));
+        if (per_power * largest_b * square_root(largest_b) > share * limits.jerk_mm_s3[k]) {
+            largest_b = smaller(largest_b, power_two_thirds(share * limits.jerk_mm_s3[k] / per_power));
         }
     }
     return largest_b;
@@ -117,22 +117,23 @@ MoveLimits JerkCell<R>::move_limits(R at_most_sq) const noexcept {
     R v_sq = smaller(at_most_sq, smaller(most_sq[0], most_sq[1]));
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
-        v_sq = smaller(v_sq, quotient_or_max(R(0.5) * limits.acceleration_mm_s2[k], s.second));
-        if (R(3.0) * s.third * v_sq * square_root(v_sq) > limits.jerk_mm_s3[k]) {
-            v_sq = smaller(v_sq, power_two_thirds(limits.jerk_mm_s3[k] / (R(3.0) * s.third)));
+        v_sq = smaller(v_sq, quotient_or_max(R(0.5) * share * limits.acceleration_mm_s2[k], s.second));
+        if (R(3.0) * s.third * v_sq * square_root(v_sq) > share * limits.jerk_mm_s3[k]) {
+            v_sq = smaller(v_sq, power_two_thirds(share * limits.jerk_mm_s3[k] / (R(3.0) * s.third)));
         }
     }
     const R v = square_root(v_sq);
     auto a = largest<R>();
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
-        a = smaller(a, quotient_or_max(limits.acceleration_mm_s2[k] - s.second * v_sq, s.first));
-        a = smaller(a, quotient_or_max(limits.jerk_mm_s3[k], R(9.0) * s.second * v));
+        a = smaller(a, quotient_or_max(share * limits.acceleration_mm_s2[k] - s.second * v_sq, s.first));
+        a = smaller(a, quotient_or_max(share * limits.jerk_mm_s3[k], R(9.0) * s.second * v));
     }
     auto j = largest<R>();
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
-        j = smaller(j, quotient_or_max(limits.jerk_mm_s3[k] - (R(3.0) * s.second * a + s.third * v_sq) * v, s.first));
+        j = smaller(
+            j, quotient_or_max(share * limits.jerk_mm_s3[k] - (R(3.0) * s.second * a + s.third * v_sq) * v, s.first));
     }
     return {to_double(v), to_double(a), to_double(j)};
 }
@@ -142,12 +143,12 @@ bool JerkCell<R>::straight(R at_most_sq) const noexcept {
     const R v = square_root(at_most_sq);
     auto a = largest<R>(); // along the path
     for (const unsigned k : indices(limits.axes)) {
-        a = smaller(a, quotient_or_max(limits.acceleration_mm_s2[k], steepness(*this, k).first));
+        a = smaller(a, quotient_or_max(share * limits.acceleration_mm_s2[k], steepness(*this, k).first));
     }
     for (const unsigned k : indices(limits.axes)) {
         const Steepness<R> s = steepness(*this, k);
-        if (s.second * at_most_sq > R(nothing) * limits.acceleration_mm_s2[k] ||
-            (R(3.0) * s.second * a + s.third * at_most_sq) * v > R(nothing) * limits.jerk_mm_s3[k]) {
+        if (s.second * at_most_sq > R(nothing) * share * limits.acceleration_mm_s2[k] ||
+            (R(3.0) * s.second * a + s.third * at_most_sq) * v > R(nothing) * share * limits.jerk_mm_s3[k]) {
             return false;
         }
     }

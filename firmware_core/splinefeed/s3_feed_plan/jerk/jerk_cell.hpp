@@ -25,7 +25,8 @@ struct JerkCell {
     R length_mm{};
     R cap_sq{}; ///< largest v^2 anywhere in the cell, but for the velocities of the axes
     std::array<R, 2> most_sq{R(unlimited_sq), R(unlimited_sq)}; ///< these allow b up to the line between its ends
-    AxisLimits<R> limits{};                                     ///< acceleration: in either direction
+    R share{1};             ///< of the accelerations and jerks below: beside a kink something is left for it
+    AxisLimits<R> limits{}; ///< acceleration: in either direction
     std::array<PerAxis<AxisEnd<R>>, 2> end{};
 
     /// Sets most_sq for an axis. @param spread  largest difference of dq/ds from the cubic that `end` gives

@@ -191,7 +191,7 @@ bool JerkChange<S, R>::lay(WorkBudget& work, bool wanted) noexcept {
         }
         const JerkNode<R>& whole = window_->node(i);
         const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
-        leg_->add(window_->limits_of(part, wanted ? whole.wanted_sq : whole.cap_sq),
+        leg_->add(window_->limits_of(part, wanted ? whole.wanted_sq : whole.cap_sq, whole.kept),
                   whole.at_most_sq + static_cast<R>(to) * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
         known = known && knows(i);
         if (known) {

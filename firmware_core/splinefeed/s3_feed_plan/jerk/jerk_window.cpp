@@ -19,6 +19,8 @@ template <Scalar S, Floating R>
 constexpr double bend_noise = std::same_as<S, double>&& std::same_as<R, double> ? 0x1p-48
                               : std::same_as<R, double>                         ? 0x1p-25
                                                                                 : 0x1p-23;
+constexpr double most_kept = 0.45;   // by all kinks together
+constexpr double ramps_beside = 1.0; // ramps of a jerk limit that cells with the cap of a kink may take
 
 } // namespace
 
@@ -35,9 +37,10 @@ AxisLimits<R> axis_limits_of(const MotionLimits<S>& limits) noexcept {
 }
 
 template <Floating R, Scalar S>
-JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap_sq) noexcept {
+JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap_sq, float kept) noexcept {
     JerkCell<R> out;
     out.limits = limits;
+    out.share = R(1) - R(kept);
     out.length_mm = to_floating<R>(cell.length_mm);
     out.cap_sq = cap_sq;
     const R per_length = R(1) / out.length_mm;
@@ -78,21 +81,73 @@ SpeedState JerkWindow<S, R>::state(std::size_t i) const noexcept {
     return {here.b, here.b > 0.0 ? 2.0 * (here.middle_sq - here.b) / length : 0.0};
 }
 
-// Where q'' jumps by d, the acceleration jumps by d v^2. A jump above the reserve of MotionLimits::make becomes a stop.
+// Where dq/ds jumps by d, the velocity of the axis jumps by v d; where q'' does, its acceleration by v^2 d. In samples
+// these are jerks of v d / T^2 and 3/4 v^2 d / T. The reserve of MotionLimits::make is not counted.
 template <Scalar S, Floating R>
-bool JerkWindow<S, R>::bend_jumps(std::size_t i) const noexcept {
-    const R per_s = R(detail::jump_in_jerk) * segments_per_s_;
+typename JerkWindow<S, R>::Kink JerkWindow<S, R>::kink_at(std::size_t i, R speed_mm_s) const noexcept {
     const JerkCell<R> before = limits_of(i - 1);
     const JerkCell<R> after = limits_of(i);
     const R noise = R(bend_noise<S, R>) / smaller(before.length_mm, after.length_mm);
+    const R frequency = segments_per_s_;
+    Kink found;
     for (const unsigned k : indices(limits_.axes)) {
-        const R jump = absolute(after.end[0][k].second - before.end[1][k].second);
-        const R reserve = R(detail::jerk_reserve) * limits_.jerk_mm_s3[k];
-        if ((jump - noise) * smaller(node(i).at_most_sq, node(i).most_sq) * per_s > reserve) {
-            return true;
+        const R jerk = limits_.jerk_mm_s3[k];
+        const R turn = to_floating<R>(cell(i).shape[k].tangent[0] - cell(i - 1).shape[k].tangent[1]);
+        const R jump = larger(R(0), absolute(turn) - R(detail::direction_noise<S>)) * speed_mm_s * frequency;
+        const R bend = larger(R(0), absolute(after.end[0][k].second - before.end[1][k].second) - noise);
+        found.turn = larger(found.turn, larger(jump * frequency / jerk, jump / limits_.acceleration_mm_s2[k]));
+        found.bend = larger(found.bend, R(detail::jump_in_jerk) * bend * speed_mm_s * speed_mm_s * frequency / jerk);
+    }
+    return found;
+}
+
+// Within two periods of a kink, third differences see it. false: it becomes a stop.
+template <Scalar S, Floating R>
+bool JerkWindow<S, R>::pass_kink(std::size_t i) noexcept {
+    JerkNode<R>& before = node(i - 1);
+    JerkNode<R>& here = node(i);
+    R speed = square_root(smaller(here.at_most_sq, smaller(here.most_sq, before.most_sq)));
+    const Kink kink = kink_at(i, speed);
+    R share = kink.turn + kink.bend;
+    if (!(share > R(detail::jerk_reserve))) {
+        return true;
+    }
+    const R most = R(detail::kink_share);
+    if (share > most) {
+        // The root of turn x + bend x^2 = most. Cells that get this cap take no longer than braking would.
+        speed *= R(2) * most / (kink.turn + square_root(kink.turn * kink.turn + R(4) * kink.bend * most));
+        R ramp_s{};
+        for (const unsigned k : indices(limits_.axes)) {
+            ramp_s = larger(ramp_s, limits_.acceleration_mm_s2[k] / limits_.jerk_mm_s3[k]);
+        }
+        if (before.length_mm + here.length_mm > R(ramps_beside) * ramp_s * speed) {
+            return false;
+        }
+        share = most;
+        const R cap_sq = speed * speed;
+        here.at_most_sq = smaller(here.at_most_sq, cap_sq);
+        for (JerkNode<R>* const beside : {&before, &here}) {
+            for (R JerkNode<R>::*const cap : {&JerkNode<R>::cap_sq, &JerkNode<R>::most_sq, &JerkNode<R>::wanted_sq}) {
+                beside->*cap = smaller(beside->*cap, cap_sq);
+            }
         }
     }
-    return false;
+    R steepest{};
+    for (const unsigned k : indices(limits_.axes)) {
+        steepest = larger(steepest, limits_.acceleration_mm_s2[k]);
+    }
+    const R reach_mm = R(2) / segments_per_s_ * (speed + R(2) / segments_per_s_ * steepest);
+    const auto kept = static_cast<float>(share);
+    bool fits = here.kept + kept < float(most_kept);
+    R way{};
+    for (std::size_t n = i; n-- > 0 && way < reach_mm; way += node(n).length_mm) {
+        node(n).kept += kept;
+        fits = fits && node(n).kept < float(most_kept);
+    }
+    here.kept += kept;
+    keeping_ = kept + (here.length_mm < keeping_mm_ ? keeping_ : 0.0F);
+    keeping_mm_ = larger(reach_mm, keeping_mm_);
+    return fits;
 }
 
 template <Scalar S, Floating R>
@@ -104,11 +159,13 @@ void JerkWindow<S, R>::append(const Cell<S>& added, R most_sq, R wanted_sq, R ex
     here.cap_sq = here.wanted_sq = wanted_sq;
     here.most_sq = most_sq;
     here.travel = Travel::curve;
-    if (size_ > 0 && bend_jumps(size_)) {
+    here.kept = keeping_mm_ > R(0) ? keeping_ : 0.0F;
+    if (size_ > 0 && !cell(size_ - 1).stop_at_end && !pass_kink(size_)) {
         Cell<S>& before = cell(size_ - 1);
         before.stop_at_end = true;
         before.end = added.origin;
     }
+    keeping_mm_ = larger(R(0), keeping_mm_ - here.length_mm);
     node(size_ + 1).at_most_sq = exit_at_most_sq;
     ++size_;
 }
@@ -159,6 +216,7 @@ void JerkWindow<S, R>::split(std::size_t i, double fraction) noexcept {
 template <Scalar S, Floating R>
 void JerkWindow<S, R>::clear() noexcept {
     size_ = travelled_ = 0;
+    keeping_mm_ = R(0);
     if (!storage_.nodes.empty()) {
         storage_.nodes[0] = {}; // standstill; all others are written before they are read
     }
@@ -166,7 +224,7 @@ void JerkWindow<S, R>::clear() noexcept {
 
 #define SPLINEFEED_INSTANTIATE(S, R)                                                                                   \
     template AxisLimits<R> axis_limits_of(const MotionLimits<S>&) noexcept;                                            \
-    template JerkCell<R> jerk_cell_of(const Cell<S>&, const AxisLimits<R>&, R) noexcept;                               \
+    template JerkCell<R> jerk_cell_of(const Cell<S>&, const AxisLimits<R>&, R, float) noexcept;                        \
     template class JerkWindow<S, R>;
 SPLINEFEED_EACH_JERK_PLAN(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE

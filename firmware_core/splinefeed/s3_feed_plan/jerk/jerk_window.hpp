@@ -36,6 +36,7 @@ struct JerkNode {
     double b = 0.0; ///< the plan: v^2 at the node
     double middle_sq = 0.0; ///< and the middle Bezier point of v^2 in the cell
     Travel travel = Travel::curve;
+    float kept = 0.0F; ///< of the limits in the cell, for kinks beside it
 };
 
 /// Memory of a JerkPlan, owned by the caller: as many nodes and as much scratch as cells, and one more of each.
@@ -54,7 +55,8 @@ template <Floating R, Scalar S>
 
 /// The limits of a cell: the derivatives of its shape at both ends.
 template <Floating R, Scalar S>
-[[nodiscard]] JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap_sq) noexcept;
+[[nodiscard]] JerkCell<R> jerk_cell_of(const Cell<S>& cell, const AxisLimits<R>& limits, R cap_sq,
+                                       float kept = 0.0F) noexcept;
 
 /// A ring of cells; node i is where cell i starts, and node size() is the end of the known path.
 template <Scalar S, Floating R>
@@ -85,16 +87,19 @@ public:
     /// The motion at a node.
     [[nodiscard]] SpeedState state(std::size_t i) const noexcept;
     /// The limits of a cell of the window.
-    [[nodiscard]] JerkCell<R> limits_of(std::size_t i) const noexcept { return limits_of(cell(i), node(i).cap_sq); }
+    [[nodiscard]] JerkCell<R> limits_of(std::size_t i) const noexcept {
+        return limits_of(cell(i), node(i).cap_sq, node(i).kept);
+    }
     /// Those of a part of a cell.
-    [[nodiscard]] JerkCell<R> limits_of(const Cell<S>& cell, R cap_sq) const noexcept {
-        return jerk_cell_of<R>(cell, limits_, cap_sq);
+    [[nodiscard]] JerkCell<R> limits_of(const Cell<S>& cell, R cap_sq, float kept) const noexcept {
+        return jerk_cell_of<R>(cell, limits_, cap_sq, kept);
     }
     [[nodiscard]] LegScratch<R>& scratch() noexcept { return scratch_; }
     /// Cells that a leg can have.
     [[nodiscard]] std::size_t longest_leg() const noexcept { return storage_.scratch.size() - 1; }
 
-    /// Appends a cell, with a stop before it if q'' jumps there.
+    /// Appends a cell. Where the direction or q'' jumps before it, something of the limits is kept for that, or the
+    /// cells beside it get a cap, or there is a stop.
     /// @param most_sq  largest v^2 in it, whatever the programmed feed
     /// @param wanted_sq  largest v^2 that is wanted in it
     /// @param exit_at_most_sq  upper bound of v^2 at its end
@@ -112,7 +117,13 @@ public:
     void clear() noexcept;
 
 private:
-    [[nodiscard]] bool bend_jumps(std::size_t i) const noexcept;
+    /// What a kink takes of the limits: for its jumps of the direction and of q''.
+    struct Kink {
+        R turn{};
+        R bend{};
+    };
+    [[nodiscard]] Kink kink_at(std::size_t i, R speed_mm_s) const noexcept;
+    [[nodiscard]] bool pass_kink(std::size_t i) noexcept;
 
     AxisLimits<R> limits_;
     R segments_per_s_;
@@ -122,6 +133,8 @@ private:
     std::size_t head_ = 0;      // first place of the ring of cells
     std::size_t size_ = 0;      // cells in it
     std::size_t travelled_ = 0; // nodes before the head's node
+    R keeping_mm_{};            // so far behind the last cell something is kept for a kink before it:
+    float keeping_ = 0.0F;      // this part
 };
 
 } // namespace splinefeed

@@ -49,6 +49,7 @@ struct LegNode {
     R slope_of_before{}; ///< and db/ds
     R slope_of_own{};
     R weight_mm{};       ///< the path length that the node stands for
+    R most_share = R{1}; ///< of the limits in the cell: beside a kink something is left for it
     R jerk_share = R{1}; ///< of the limits, which rows at the ends of the cell may use
     R acceleration_share = R{1};
     R cap_multiplier{};

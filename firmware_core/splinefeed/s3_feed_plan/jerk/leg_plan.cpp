@@ -83,6 +83,7 @@ void LegPlan<R>::add(const JerkCell<R>& cell, R at_most_sq) noexcept {
     LegNode<R>& next = nodes_[cells_ + 1];
     const bool first = cells_ == 0;
     node.length_mm = cell.length_mm;
+    node.most_share = cell.share;
     node.cap_sq = first ? cap_sq : smaller(cap_sq, node.cap_sq);
     const bool stops = !(at_most_sq > R(0));
     node.likely_sq = first   ? (stops ? cap_sq : at_most_sq)
@@ -206,7 +207,7 @@ void LegPlan<R>::join() noexcept {
 template <Floating R>
 void LegPlan<R>::guess(double lead) noexcept {
     for (LegNode<R>& node : leg()) {
-        node.jerk_share = node.acceleration_share = R(1);
+        node.jerk_share = node.acceleration_share = node.most_share;
     }
     guess_leg<R>(leg(), limits_, rests_);
     if (!rests_ && known_ > 1) {

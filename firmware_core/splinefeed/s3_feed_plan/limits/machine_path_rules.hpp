@@ -59,6 +59,26 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
     return {smaller(most, 0.5 * timing.tolerated_turn() + 1e-9), 0.5 * timing.tolerated_bend()};
 }
 
+/// The kinks that a jerk-limited plan passes at any speed, with a part of its limits (detail::kink_share).
+[[nodiscard]] constexpr PassedKink<double> passed_kink(const MachineSettings& machine) noexcept {
+    PassedKink<double> kink;
+    if (!(machine.max_feed_mm_s > 0.0) || !(axis_totals(machine).smoothest > 0.0)) {
+        return kink;
+    }
+    const MachineTiming timing(machine);
+    if (!(timing.smoothest > 0.0)) {
+        return kink;
+    }
+    for (const unsigned k : indices(machine.axes)) {
+        kink.turn_mm_s[k] = timing.kink_turn_mm_s(k);
+        kink.acceleration_mm_s2[k] = timing.settings.axis[k].smaller_acceleration_mm_s2();
+    }
+    kink.fastest_mm_s = timing.path_mm_s;
+    kink.bend_s = detail::jump_in_jerk * timing.segment_s;
+    kink.sharpest = 0.5 * timing.sharpest_kink();
+    return kink;
+}
+
 /// What a TolerancePath has to know of a machine. Only with a jerk limit do jumps of the curvature cost time. Without
 /// one the joint tolerance is 0.625 of what is asked for: the samples leave the path by up to 0.35 um besides. So with
 /// the usual micrometre the motion, too, keeps it. And chains of short lines get three quarters of a tolerance, because
@@ -67,8 +87,12 @@ constexpr double bent_acceleration(const MachineSettings& machine) noexcept {
 [[nodiscard]] constexpr PathRules<double> path_rules(const MachineSettings& machine,
                                                      double joint_tolerance_mm = 0.001) noexcept {
     const bool jerk_limited = axis_totals(machine).smoothest > 0.0;
-    PathRules<double> rules{jerk_limited ? joint_tolerance_mm : 0.625 * joint_tolerance_mm, sharpest_blend(machine),
-                            jerk_limited, jerk_limited ? 4 : 3, smooth_joint(machine)};
+    PathRules<double> rules{jerk_limited ? joint_tolerance_mm : 0.625 * joint_tolerance_mm,
+                            sharpest_blend(machine),
+                            jerk_limited,
+                            jerk_limited ? 4 : 3,
+                            smooth_joint(machine),
+                            passed_kink(machine)};
     for (const unsigned k : indices(machine.axes)) {
         rules.rotary[k] = machine.axis[k].rotary;
     }

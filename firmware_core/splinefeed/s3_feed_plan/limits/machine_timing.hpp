@@ -28,6 +28,10 @@ constexpr double planned_jerk(const AxisSettings& axis, double segment_s) noexce
 /// The part of a jerk limit that planning leaves for jumps of the curvature.
 inline constexpr double jerk_reserve = 5e-4;
 
+/// The part of the limits that a plan leaves beside a kink, at most. A kink that needs more at the speed of the path is
+/// passed more slowly, or is a stop.
+inline constexpr double kink_share = 0.15;
+
 /// The smallest jerk limit that binds; 0: none does.
 constexpr double smallest_binding_jerk(const MachineSettings& settings, double segment_s) noexcept {
     double smallest = 0.0;
@@ -86,6 +90,18 @@ struct MachineTiming {
     /// A jump of direction d at a joint needs the acceleration v d / T: so large a one is tolerated at any speed.
     [[nodiscard]] constexpr double tolerated_turn() const noexcept {
         return detail::corner_share * totals.softest * segment_s / path_mm_s;
+    }
+    /// A jump d of an axis's direction at a joint needs the jerk v d / T^2: for kink_share of its limit this is v d.
+    [[nodiscard]] constexpr double kink_turn_mm_s(unsigned axis) const noexcept {
+        return detail::kink_share * segment_s * segment_s * detail::planned_jerk(settings.axis[axis], segment_s);
+    }
+    /// The largest kink that is not a stop in any case. Its speed is 1/16 of the largest one, or higher.
+    [[nodiscard]] constexpr double sharpest_kink() const noexcept {
+        double turn = kink_turn_mm_s(0);
+        for (const unsigned k : indices(settings.axes)) {
+            turn = smaller(turn, kink_turn_mm_s(k));
+        }
+        return smoothest > 0.0 ? larger(tolerated_turn(), 16.0 * turn / path_mm_s) : tolerated_turn();
     }
     /// The same of the curvature, for the reserve of the jerk. [1/mm]
     [[nodiscard]] constexpr double tolerated_bend() const noexcept {

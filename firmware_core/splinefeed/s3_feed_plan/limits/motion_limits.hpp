@@ -332,7 +332,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         refinement.curvature_change = scale2(refinement.curvature_change, -1); // a remainder that is proportional to
                                                                                // its cube
     }
-    refinement.direction_jump = from_double<S>(timing.tolerated_turn()) + from_double<S>(detail::direction_noise<S>);
+    refinement.direction_jump = from_double<S>(timing.sharpest_kink()) + from_double<S>(detail::direction_noise<S>);
     return limits;
 }
 
