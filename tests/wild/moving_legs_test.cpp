@@ -69,7 +69,7 @@ TEST_CASE("legs that begin in motion are planned anew", "[wild][jerk]") {
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(48)); ++round) {
         Random random(seed + round);
         std::ofstream(arguments.path.input) << program(random, round % 2 == 0 ? 0.01 : 0.05, round % 3 == 0);
-        const WildRun run = wild_run(arguments, 200'000);
+        const WildRun run = wild_run(arguments, 400'000);
         CAPTURE(seed, round, run.refused, run.slow_legs, run.searched_legs);
         CHECK(run.fault == "");
         CHECK(run.ended);

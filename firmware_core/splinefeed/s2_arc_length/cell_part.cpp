@@ -65,7 +65,8 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
         }
         shape.error_bound = shape.error_bound * share;
     }
-    // inverse[i] belongs to x^(i+1). With l and omega as above omega = xi + ((l - width) xi + deviation / 4) / width.
+    // inverse[i] belongs to x^(i+1). With l and omega as above omega = xi + ((l - width) xi + deviation / 4) / width, and 1
+    // at its end.
     std::array<R, 7> deviation{};
     for (std::size_t i = 0; i < 6; ++i) {
         deviation[i + 1] = cell.inverse[i];
@@ -73,11 +74,13 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
     shift(std::span<R>(deviation), shortened<R>(stretch.from));
     const DivisionBy<R> by_width(shortened<R>(width));
     R scale = share;
-    for (std::size_t i = 0; i < 6; ++i) {
-        out.inverse[i] = deviation[i + 1] * scale / by_width;
+    R rest{};
+    for (std::size_t i = 1; i < 6; ++i) {
         scale = scale * share;
+        out.inverse[i] = deviation[i + 1] * scale / by_width;
+        rest += out.inverse[i];
     }
-    out.inverse[0] = out.inverse[0] + shortened<R>(length - width, 2) / by_width;
+    out.inverse[0] = -rest; // exactly: at its end the part is where it ends, and the path has no step
     out.length_mm = cell.length_mm * length;
     out.stop_before = cell.stop_before && stretch.from == S{};
     if (!(stretch.to == one)) {
