@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/adapt_words.hpp"
 
-#include "splinefeed/s0_program/canned_cycle.hpp"
-
 namespace splinefeed {
 
 namespace {

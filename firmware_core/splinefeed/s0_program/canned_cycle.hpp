@@ -7,16 +7,6 @@
 
 namespace splinefeed {
 
-/// Whether a motion word is that of a cycle. @param motion  ten times the G word
-[[nodiscard]] constexpr bool is_cycle(std::int16_t motion) noexcept {
-    return motion == 730 || motion == 740 || (motion > 800 && motion <= 890);
-}
-
-/// Whether it is that of a tapping cycle.
-[[nodiscard]] constexpr bool taps(std::int16_t motion) noexcept {
-    return motion == 740 || motion == 840;
-}
-
 /// What a cycle does next. A lift is a rapid before the cycle proper: it is blended as other moves are.
 /// A spindle is reversed in the hole, and turned as before behind it.
 enum class CycleStep : std::uint8_t {

@@ -46,4 +46,14 @@ struct CodeInfo {
 [[nodiscard]] CodeInfo find_g_code(std::int32_t tenths, Dialect dialect) noexcept;
 [[nodiscard]] CodeInfo find_m_code(std::int32_t number, Dialect dialect) noexcept;
 
+/// Whether a motion word is that of a cycle. @param motion  ten times the G word
+[[nodiscard]] constexpr bool is_cycle(std::int16_t motion) noexcept {
+    return motion == 730 || motion == 740 || (motion > 800 && motion <= 890);
+}
+
+/// Whether it is that of a tapping cycle.
+[[nodiscard]] constexpr bool taps(std::int16_t motion) noexcept {
+    return motion == 740 || motion == 840;
+}
+
 } // namespace splinefeed

@@ -2,23 +2,10 @@
 // ContourElement: a line or an arc of a contour, and where a tool that is offset from it travels.
 #pragma once
 
-#include "splinefeed/s0_program/plane_vector.hpp"
-
+#include "splinefeed/s0_program/cutter_offset.hpp"
 #include "splinefeed/s0_program/program_errors.hpp"
 
 namespace splinefeed {
-
-/// How a tool is offset from a contour.
-struct CutterOffset {
-    Plane plane = Plane::xy;
-    int side = 0;     ///< 1: left of the contour, -1: right, 0: not at all
-    Decimal radius{}; ///< of the tool [mm]; 0: the contour is its path
-    /// From the middle of a lathe tool's tip to the point that is programmed.
-    PlanePoint tip{};
-
-    [[nodiscard]] constexpr bool applies() const noexcept { return side != 0 && radius.raw > 0; }
-    friend constexpr bool operator==(const CutterOffset&, const CutterOffset&) noexcept = default;
-};
 
 /// In one plane. `programmed` is the contour, `from` and `to` where the tool travels; an arc of both has one centre.
 struct ContourElement {

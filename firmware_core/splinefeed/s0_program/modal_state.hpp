@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s0_program/block.hpp"
-#include "splinefeed/s0_program/contour_element.hpp"
+#include "splinefeed/s0_program/cutter_offset.hpp"
 #include "splinefeed/s0_program/dialect_rules.hpp"
 #include "splinefeed/s0_program/surface_speed.hpp"
 

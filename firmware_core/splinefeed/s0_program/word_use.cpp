@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/word_use.hpp"
 
-#include "splinefeed/s0_program/canned_cycle.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
 
 namespace splinefeed {
