@@ -7,7 +7,7 @@
 
 #include "splinefeed/hal/gpio/line_map.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include "host_sim/config/program_lines.hpp"
 
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <vector>
 

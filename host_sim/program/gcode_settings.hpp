@@ -7,8 +7,8 @@
 #include "host_sim/program/tool_file.hpp"
 
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/program_settings.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 #include <optional>
 #include <string>

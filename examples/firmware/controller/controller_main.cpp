@@ -13,7 +13,7 @@
 #include "splinefeed/controller/controller.hpp"
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/move_stream/scalar_stream.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 
 namespace firmware {
 

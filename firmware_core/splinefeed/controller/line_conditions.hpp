@@ -2,8 +2,8 @@
 // LineConditions: which lines of a stream are executed: O words if, elseif, else and endif.
 #pragma once
 
-#include "splinefeed/s0_program/block_status.hpp"
-#include "splinefeed/s0_program/word_evaluator.hpp"
+#include "splinefeed/s0_program/text/word_evaluator.hpp"
+#include "splinefeed/s0_program/words/block_status.hpp"
 
 #include <array>
 
