@@ -6,7 +6,7 @@
 #include "host_sim/config/drive_address.hpp"
 
 #include "splinefeed/hal/gpio/line_map.hpp"
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ByteLine: bytes from and to a sender. The tick's interrupt polls the UART, so a board needs no other interrupt.
+// ByteWire: bytes from and to a sender. The tick's interrupt polls the UART, so a board needs no other interrupt.
 #pragma once
 
 #include "serial.hpp"
@@ -11,7 +11,7 @@ namespace firmware {
 /// One byte each way in a tick: the tick must be shorter than a byte on the line. The main loop hands all that came to
 /// the controller in each of its rounds, before any line of it is read, so a stop waits for no line. A reset does not
 /// even wait for the round.
-class ByteLine {
+class ByteWire {
 public:
     /// For the interrupt. @param read  () -> int: a byte, Serial::nothing or Serial::lost
     /// @param write  (std::uint8_t) -> bool: false if the UART has no room now

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// SimulatedLine: a Modbus line on a virtual clock, with simulated drives behind it and everything that goes wrong on
+// SimulatedLink: a Modbus line on a virtual clock, with simulated drives behind it and everything that goes wrong on
 // the way.
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/link/open_answers.hpp"
 
 #include <deque>
@@ -23,7 +23,7 @@ struct Span {
 };
 
 /// What happens to an exchange, each with a probability of its own.
-struct LineFaults {
+struct WireFaults {
     double lost_request = 0.0;
     double lost_answer = 0.0;
     double corrupt = 0.0;   ///< rtu: the frame's CRC; tcp: a bit of a written block that has a checksum of its own
@@ -67,7 +67,7 @@ private:
 /// What lines of one wire have in common: it outlives them.
 struct SimulatedWire {
     std::map<int, Station*> stations; ///< by unit
-    LineFaults faults;
+    WireFaults faults;
     splinefeed::host::ModbusException exception = splinefeed::host::ModbusException::busy;
     Span faults_at{0, UINT64_MAX}; ///< when they may happen
     std::vector<Span> unplugged;   ///< nobody is connected
@@ -82,14 +82,14 @@ struct SimulatedWire {
     std::mt19937_64 random{1};
 };
 
-class SimulatedLine final : public splinefeed::hal::modbus::ModbusLine {
+class SimulatedLink final : public splinefeed::hal::modbus::ModbusWire {
 public:
     using LinkAddress = splinefeed::hal::modbus::LinkAddress;
     using LinkAnswer = splinefeed::hal::modbus::LinkAnswer;
     using LinkTiming = splinefeed::hal::modbus::LinkTiming;
     using RequestKind = splinefeed::hal::modbus::RequestKind;
 
-    SimulatedLine(SimulatedWire& wire, const LinkAddress& address, const LinkTiming& timing,
+    SimulatedLink(SimulatedWire& wire, const LinkAddress& address, const LinkTiming& timing,
                   splinefeed::hal::Clock& clock)
         : wire_(wire), address_(address), timing_(timing), clock_(clock) {}
 

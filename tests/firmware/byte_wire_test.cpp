@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "controller/byte_line.hpp"
+#include "controller/byte_wire.hpp"
 
 #include "support/catch.hpp"
 
 #include <deque>
 #include <string>
 
-using firmware::ByteLine;
+using firmware::ByteWire;
 using firmware::Serial;
 
 namespace {
@@ -17,7 +17,7 @@ struct SenderWire {
     std::string out;
     bool ready = true;
 
-    bool poll(ByteLine& line) {
+    bool poll(ByteWire& line) {
         return line.poll(
             [this] {
                 const int byte = in.empty() ? Serial::nothing : in.front();
@@ -33,15 +33,15 @@ struct SenderWire {
     }
 };
 
-std::string taken(ByteLine& line) {
+std::string taken(ByteWire& line) {
     std::array<char, 2000> bytes{};
     return {bytes.data(), line.take(bytes)};
 }
 
 } // namespace
 
-TEST_CASE("ByteLine: bytes come and go in order, and a reset is told at once", "[byte_line]") {
-    ByteLine line;
+TEST_CASE("ByteWire: bytes come and go in order, and a reset is told at once", "[byte_wire]") {
+    ByteWire line;
     SenderWire wire;
     for (const int byte : {0x47, 0x85, 0x18, 0x31}) {
         wire.in.push_back(byte);
@@ -64,8 +64,8 @@ TEST_CASE("ByteLine: bytes come and go in order, and a reset is told at once", "
     CHECK(wire.out == "ok");
 }
 
-TEST_CASE("ByteLine: all that a sender may have sent fits, and what a UART loses is told", "[byte_line]") {
-    ByteLine line;
+TEST_CASE("ByteWire: all that a sender may have sent fits, and what a UART loses is told", "[byte_wire]") {
+    ByteWire line;
     SenderWire wire;
     wire.in.assign(1024 + 32, 'x');
     for (int i = 0; i < 1024 + 32; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/drive/drive_line.hpp"
+#include "host_sim/drive/drive_wire.hpp"
 
 #include "host_sim/base/input_error.hpp"
 
@@ -66,7 +66,7 @@ ReservedPort::~ReservedPort() {
     }
 }
 
-DriveLine::DriveLine(const ListenAddress& address)
+DriveWire::DriveWire(const ListenAddress& address)
     : address_(address), context_(make_modbus_context(address)),
       reserved_(address.kind == ListenAddress::Kind::tcp ? ReservedPort(address) : ReservedPort()) {
     if (address_.kind == ListenAddress::Kind::tcp) {
@@ -78,11 +78,11 @@ DriveLine::DriveLine(const ListenAddress& address)
     connect();
 }
 
-DriveLine::~DriveLine() {
+DriveWire::~DriveWire() {
     disconnect();
 }
 
-void DriveLine::connect() {
+void DriveWire::connect() {
     if (address_.kind == ListenAddress::Kind::tcp) {
         listen();
         return;
@@ -95,7 +95,7 @@ void DriveLine::connect() {
     listener_ = modbus_get_socket(context_.get());
 }
 
-void DriveLine::listen() {
+void DriveWire::listen() {
     const ModbusContext context = make_modbus_context(address_);
     listener_ = modbus_tcp_listen(context.get(), waiting_connections);
     if (listener_ < 0) {
@@ -103,14 +103,14 @@ void DriveLine::listen() {
     }
 }
 
-void DriveLine::close_connections() {
+void DriveWire::close_connections() {
     for (const Connection& connection : connections_) {
         close(connection.descriptor);
     }
     connections_.clear();
 }
 
-void DriveLine::disconnect() {
+void DriveWire::disconnect() {
     close_connections();
     readable_ = false;
     if (listener_ < 0) {
@@ -124,7 +124,7 @@ void DriveLine::disconnect() {
     listener_ = -1;
 }
 
-void DriveLine::wait(std::chrono::microseconds longest, bool deaf) {
+void DriveWire::wait(std::chrono::microseconds longest, bool deaf) {
     readable_ = false;
     std::vector<pollfd> polled;
     if (!deaf) {
@@ -138,7 +138,7 @@ void DriveLine::wait(std::chrono::microseconds longest, bool deaf) {
     readable_ = !polled.empty() && polled.front().revents != 0;
 }
 
-std::vector<DriveLine::Request> DriveLine::receive() {
+std::vector<DriveWire::Request> DriveWire::receive() {
     std::vector<Request> requests;
     if (address_.kind == ListenAddress::Kind::rtu) {
         if (readable_) {
@@ -161,7 +161,7 @@ std::vector<DriveLine::Request> DriveLine::receive() {
     return requests;
 }
 
-void DriveLine::accept_connections() {
+void DriveWire::accept_connections() {
     const int descriptor = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
     if (descriptor < 0) {
         return;
@@ -175,7 +175,7 @@ void DriveLine::accept_connections() {
     connections_.push_back({++channels_, descriptor, false, false, {}});
 }
 
-DriveLine::Frame DriveLine::peek(const Connection& connection) {
+DriveWire::Frame DriveWire::peek(const Connection& connection) {
     std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> bytes{};
     const ssize_t size = recv(connection.descriptor, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
     if (size < 0) {
@@ -190,7 +190,7 @@ DriveLine::Frame DriveLine::peek(const Connection& connection) {
     return arrived >= mbap_head && arrived >= std::min(expected, bytes.size()) ? Frame::whole : Frame::partial;
 }
 
-void DriveLine::receive_from(Connection& connection, std::vector<Request>& requests) {
+void DriveWire::receive_from(Connection& connection, std::vector<Request>& requests) {
     const Clock::time_point now = Clock::now();
     const Frame frame = peek(connection);
     if (frame == Frame::partial) {
@@ -220,12 +220,12 @@ void DriveLine::receive_from(Connection& connection, std::vector<Request>& reque
 }
 
 // On a serial line libmodbus looks at that itself.
-bool DriveLine::is_ours(int unit) const noexcept {
+bool DriveWire::is_ours(int unit) const noexcept {
     constexpr int any = 0; // "the device at the address", as MODBUS_TCP_SLAVE
     return unit == address_.unit || unit == MODBUS_TCP_SLAVE || unit == any;
 }
 
-void DriveLine::receive_serial(std::vector<Request>& requests) {
+void DriveWire::receive_serial(std::vector<Request>& requests) {
     Request request{0, std::vector<std::uint8_t>(MODBUS_MAX_ADU_LENGTH)};
     const int size = modbus_receive(context_.get(), request.bytes.data());
     if (size > 0) {
@@ -237,7 +237,7 @@ void DriveLine::receive_serial(std::vector<Request>& requests) {
     }
 }
 
-void DriveLine::send(int channel, const std::vector<std::uint8_t>& bytes) {
+void DriveWire::send(int channel, const std::vector<std::uint8_t>& bytes) {
     int descriptor = address_.kind == ListenAddress::Kind::rtu ? listener_ : -1;
     for (const Connection& connection : connections_) {
         descriptor = connection.channel == channel ? connection.descriptor : descriptor;
@@ -253,7 +253,7 @@ void DriveLine::send(int channel, const std::vector<std::uint8_t>& bytes) {
     }
 }
 
-void DriveLine::send_all(const std::vector<std::uint8_t>& bytes) {
+void DriveWire::send_all(const std::vector<std::uint8_t>& bytes) {
     if (address_.kind == ListenAddress::Kind::rtu) {
         send(0, bytes);
     }

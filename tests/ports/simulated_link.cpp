@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulated_line.hpp"
+#include "simulated_link.hpp"
 
 #include <algorithm>
 
@@ -56,18 +56,18 @@ void Station::postpone(std::uint64_t until_us, std::function<void()> effect) {
     waiting_.push_back({until_us, std::move(effect)});
 }
 
-bool SimulatedLine::happens(double probability) {
+bool SimulatedLink::happens(double probability) {
     const bool yes = probability > 0.0 && wire_.faults_at.has(clock_.now_us()) &&
                      std::uniform_real_distribution<double>(0.0, 1.0)(wire_.random) < probability;
     wire_.hiccups += yes ? 1 : 0;
     return yes;
 }
 
-bool SimulatedLine::unplugged() const noexcept {
+bool SimulatedLink::unplugged() const noexcept {
     return any_has(wire_.unplugged, clock_.now_us());
 }
 
-bool SimulatedLine::is_silent() {
+bool SimulatedLink::is_silent() {
     const std::uint64_t now_us = clock_.now_us();
     ++wire_.requests;
     for (const auto& [number, duration_us] : wire_.silences) {
@@ -76,14 +76,14 @@ bool SimulatedLine::is_silent() {
     return wire_.silent.has(now_us);
 }
 
-SimulatedLine::OnWay* SimulatedLine::first_before(std::uint64_t instant_us) {
+SimulatedLink::OnWay* SimulatedLink::first_before(std::uint64_t instant_us) {
     const auto first = std::min_element(on_way_.begin(), on_way_.end(),
                                         [](const OnWay& a, const OnWay& b) { return a.at_us < b.at_us; });
     return first != on_way_.end() && first->at_us < instant_us ? &*first : nullptr;
 }
 
 // The first answer that comes belongs to an earlier request; ours comes behind it.
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::take_other(LinkAnswer answer, const OnWay& mine,
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::take_other(LinkAnswer answer, const OnWay& mine,
                                                               std::span<std::uint16_t> out) {
     OnWay* const first = first_before(UINT64_MAX);
     const OnWay other = std::move(*first);
@@ -102,7 +102,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::take_other(LinkAnswer answer,
     return answer;
 }
 
-bool SimulatedLine::connect() noexcept {
+bool SimulatedLink::connect() noexcept {
     clock_.sleep_us(wire_.latency_us);
     connected_ = !unplugged();
     dirty_ = behind_ = false;
@@ -111,7 +111,7 @@ bool SimulatedLine::connect() noexcept {
     return connected_;
 }
 
-std::uint64_t SimulatedLine::next_us() const noexcept {
+std::uint64_t SimulatedLink::next_us() const noexcept {
     constexpr std::size_t longest_frame = 256;
     const std::uint64_t settle = behind_  ? timing_.answer_us + frame_us(address_, longest_frame)
                                  : dirty_ ? settle_us
@@ -119,7 +119,7 @@ std::uint64_t SimulatedLine::next_us() const noexcept {
     return std::max(clock_.now_us(), quiet_from_us_ + silence_us(address_) + timing_.before_us + settle);
 }
 
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::fail(LinkAnswer answer, LinkFault fault,
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::fail(LinkAnswer answer, LinkFault fault,
                                                         std::uint64_t at_us) noexcept {
     clock_.sleep_until_us(at_us);
     answer.fault = fault;
@@ -129,7 +129,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::fail(LinkAnswer answer, LinkF
     return answer;
 }
 
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers written, std::span<std::uint16_t> out,
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::transact(int unit, Registers written, std::span<std::uint16_t> out,
                                                             const std::function<Effect(Registers)>& effect) {
     LinkAnswer answer;
     answer.sent_us = answer.answered_us = clock_.now_us();
@@ -240,7 +240,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     return answer;
 }
 
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
     return transact(unit, {}, out, [address](const Registers&) -> Effect {
         return [address](DriveModel& model, Registers& in) {
             return model.read(address, in);
@@ -248,7 +248,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::read(int unit, int address, s
     });
 }
 
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::write(int unit, int address,
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::write(int unit, int address,
                                                          std::span<const std::uint16_t> values) noexcept {
     return transact(unit, {values.begin(), values.end()}, {}, [address](Registers written) -> Effect {
         return [address, written = std::move(written)](DriveModel& model, Registers& /*in*/) {
@@ -257,7 +257,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::write(int unit, int address,
     });
 }
 
-splinefeed::hal::modbus::LinkAnswer SimulatedLine::exchange(int unit, int write_address,
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::exchange(int unit, int write_address,
                                                             std::span<const std::uint16_t> values, int read_address,
                                                             std::span<std::uint16_t> out) noexcept {
     return transact(unit, {values.begin(), values.end()}, out, [=](Registers written) -> Effect {

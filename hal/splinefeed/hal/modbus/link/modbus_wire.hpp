@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ModbusLine: interface to a Modbus line. ModbusLink implements it; tests use a simulated line.
+// ModbusWire: interface to the wire of Modbus devices. ModbusLink implements it; tests use a simulated one.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_address.hpp"
@@ -48,12 +48,12 @@ struct LinkAnswer {
 
 /// One line to one or several drives. For one thread at a time. Calls block until the answer or the time-out: a call
 /// takes longest_exchange_us() at most, whatever comes in. Call connect() again after the connection is lost.
-class ModbusLine {
+class ModbusWire {
 public:
-    ModbusLine() = default;
-    ModbusLine(const ModbusLine&) = delete;
-    ModbusLine& operator=(const ModbusLine&) = delete;
-    virtual ~ModbusLine() = default;
+    ModbusWire() = default;
+    ModbusWire(const ModbusWire&) = delete;
+    ModbusWire& operator=(const ModbusWire&) = delete;
+    virtual ~ModbusWire() = default;
 
     /// Connects, within LinkTiming::answer_us. Returns false on failure: error().
     virtual bool connect() noexcept = 0;
@@ -99,7 +99,7 @@ public:
 };
 
 /// What went wrong with a request on a line: "no answer in time ...", "exception busy", "there is no connection: ...".
-[[nodiscard]] std::string describe(const LinkAnswer& answer, const ModbusLine& line);
+[[nodiscard]] std::string describe(const LinkAnswer& answer, const ModbusWire& wire);
 
 /// Longest time of an exchange: what may still come of earlier ones is waited for, then the answer. [us]
 [[nodiscard]] constexpr std::uint64_t longest_exchange_us(const LinkAddress& address, const LinkTiming& timing,
@@ -110,10 +110,10 @@ public:
 }
 
 /// Factory of lines.
-using MakeLine =
-    std::function<std::unique_ptr<ModbusLine>(const LinkAddress& address, const LinkTiming& timing, Clock& clock)>;
+using MakeWire =
+    std::function<std::unique_ptr<ModbusWire>(const LinkAddress& address, const LinkTiming& timing, Clock& clock)>;
 
 /// Makes a ModbusLink.
-[[nodiscard]] std::unique_ptr<ModbusLine> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock);
+[[nodiscard]] std::unique_ptr<ModbusWire> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock);
 
 } // namespace splinefeed::hal::modbus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
@@ -30,12 +30,12 @@ const char* describe(LinkFault fault, Wire wire) noexcept {
     return "";
 }
 
-std::string describe(const LinkAnswer& answer, const ModbusLine& line) {
+std::string describe(const LinkAnswer& answer, const ModbusWire& wire) {
     if (answer.fault == LinkFault::exception) {
         return std::string("exception ") + exception_name(answer.exception);
     }
-    return answer.fault == LinkFault::disconnected && !line.connected() ? "there is no connection: " + line.error()
-                                                                        : describe(answer.fault, line.address().wire);
+    return answer.fault == LinkFault::disconnected && !wire.connected() ? "there is no connection: " + wire.error()
+                                                                        : describe(answer.fault, wire.address().wire);
 }
 
 bool LinkAnswer::refused() const noexcept {
@@ -54,15 +54,15 @@ const char* exception_name(std::uint8_t code) noexcept {
     return code < names.size() ? names[code] : names[9];
 }
 
-LinkAnswer ModbusLine::read_bit(int /*unit*/, BitTable /*table*/, int /*address*/, bool& /*out*/) noexcept {
+LinkAnswer ModbusWire::read_bit(int /*unit*/, BitTable /*table*/, int /*address*/, bool& /*out*/) noexcept {
     return no_bits;
 }
 
-LinkAnswer ModbusLine::write_coil(int /*unit*/, int /*address*/, bool /*on*/) noexcept {
+LinkAnswer ModbusWire::write_coil(int /*unit*/, int /*address*/, bool /*on*/) noexcept {
     return no_bits;
 }
 
-std::unique_ptr<ModbusLine> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock) {
+std::unique_ptr<ModbusWire> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock) {
     return std::make_unique<ModbusLink>(address, timing, clock);
 }
 

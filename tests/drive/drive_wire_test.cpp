@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/drive/drive_line.hpp"
+#include "host_sim/drive/drive_wire.hpp"
 #include "support/catch.hpp"
 
 #include <arpa/inet.h>
@@ -31,7 +31,7 @@ int answer(Call call, int port) {
 } // namespace
 
 TEST_CASE("a line that is down refuses connections, and its port goes to nobody else", "[drive]") {
-    DriveLine line(ListenAddress{});
+    DriveWire line(ListenAddress{});
     const int port = line.address().port;
     REQUIRE(port > 0);
     CHECK(answer(::connect, port) == 0);
@@ -48,10 +48,10 @@ TEST_CASE("a line that is down refuses connections, and its port goes to nobody 
 TEST_CASE("a port is free again when its line is gone, and is not taken twice", "[drive]") {
     ListenAddress address;
     {
-        const DriveLine line(address);
+        const DriveWire line(address);
         address.port = line.address().port;
-        CHECK_THROWS_AS(DriveLine(address), UsageError);
+        CHECK_THROWS_AS(DriveWire(address), UsageError);
     }
-    const DriveLine again(address);
+    const DriveWire again(address);
     CHECK(answer(::connect, address.port) == 0);
 }

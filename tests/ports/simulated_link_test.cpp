@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The virtual line itself: what each of its faults looks like to who asks.
-#include "ports/simulated_line.hpp"
+#include "ports/simulated_link.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 
@@ -40,7 +40,7 @@ struct Line {
     Counter counter;
     Station station{counter, 0.0};
     SimulatedWire wire;
-    SimulatedLine link;
+    SimulatedLink link;
     std::array<std::uint16_t, 1> in{};
     std::uint64_t took_us = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveLine: receives requests and sends replies: over several TCP connections at once, or over one serial line.
+// DriveWire: receives requests and sends replies: over several TCP connections at once, or over one serial line.
 // ReservedPort: a TCP port that is kept while nobody listens there.
 #pragma once
 
@@ -30,7 +30,7 @@ private:
     int port_ = 0;
 };
 
-class DriveLine {
+class DriveWire {
 public:
     struct Request {
         int channel = 0; ///< the channel for its reply
@@ -39,10 +39,10 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// Listens, or opens the serial line. Throws UsageError if that fails.
-    explicit DriveLine(const ListenAddress& address);
-    DriveLine(const DriveLine&) = delete;
-    DriveLine& operator=(const DriveLine&) = delete;
-    ~DriveLine();
+    explicit DriveWire(const ListenAddress& address);
+    DriveWire(const DriveWire&) = delete;
+    DriveWire& operator=(const DriveWire&) = delete;
+    ~DriveWire();
 
     /// The address, with the port that was chosen.
     [[nodiscard]] const ListenAddress& address() const noexcept { return address_; }

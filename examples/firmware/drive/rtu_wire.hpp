@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RtuLine: a slave's end of a Modbus RTU line: the tick's interrupt collects the bytes of a request, and sends an
+// RtuWire: a slave's end of a Modbus RTU line: the tick's interrupt collects the bytes of a request, and sends an
 // answer.
 #pragma once
 
@@ -26,9 +26,9 @@ struct RtuTiming {
 /// than its head says may go on for some time; what is for others ends with the first silence.
 ///
 /// poll() belongs to the interrupt; all other functions belong to the main loop.
-class RtuLine {
+class RtuWire {
 public:
-    RtuLine(std::uint8_t unit, const RtuTiming& timing) noexcept : timing_(timing), unit_(unit) {}
+    RtuWire(std::uint8_t unit, const RtuTiming& timing) noexcept : timing_(timing), unit_(unit) {}
 
     /// @param read  () -> int: a byte, Serial::nothing or Serial::lost
     /// @param write  (std::uint8_t) -> bool: false if the UART has no room now

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drive/rtu_line.hpp"
+#include "drive/rtu_wire.hpp"
 
 #include "drive_bench.hpp"
 
@@ -37,7 +37,7 @@ struct Wire {
     }
     void run_all() { run(static_cast<int>(in.size()) + 500); }
 
-    RtuLine line{1, timing};
+    RtuWire line{1, timing};
     std::deque<int> in;
     std::vector<std::uint8_t> out;
     bool busy = false;
