@@ -109,7 +109,7 @@ void on_tick() {
     estop.store(inputs.estop, std::memory_order_relaxed);
     limit.store(inputs.limit, std::memory_order_relaxed);
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     if (wire->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
         !steps->stands()) {
         steps->order(Stop::halted); // the controller will ask for the same

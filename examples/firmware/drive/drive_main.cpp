@@ -31,7 +31,7 @@ void on_tick() {
     limit.store(inputs.limit, std::memory_order_relaxed);
     inputs.limit = false; // the drive stops its axes itself
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 

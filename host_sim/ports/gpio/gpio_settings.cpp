@@ -49,7 +49,7 @@ double asked_edges_per_s(const MachineDescription& machine) noexcept {
     return steps * (machine.step.step_on_edge ? 1.0 : 2.0);
 }
 
-hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::PinMap& map,
                                           hal::Clock* clock) {
     const bool real = clock == nullptr;
     PerAxis<double> acceleration{};
@@ -86,7 +86,7 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
             .settle_us = 2000};
 }
 
-hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine, const hal::gpio::PinMap& map,
                                                const RunOptions& options, hal::Clock* clock) {
     constexpr double search_mm = 2000.0; // of an axis without travel limits
     constexpr double beyond = 1.2;       // of its travel

@@ -5,7 +5,7 @@
 
 namespace splinefeed::hal::gpio {
 
-GpioPort::GpioPort(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, Noted noted)
+GpioPort::GpioPort(const PinMap& map, const GpioPortSettings& settings, MachinePins& lines, Noted noted)
     : map_(&map), settings_(settings), time_(settings.step.clock != nullptr ? settings.step.clock : &system_clock()),
       lines_(&lines), noted_(std::move(noted)), port_(lines.outputs(), settings.step),
       inputs_(map, settings_, lines, port_), mover_(map, settings_, inputs_, port_), stops_(settings_, map, inputs_),
