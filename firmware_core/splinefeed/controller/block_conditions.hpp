@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineConditions: which lines of a stream are executed: O words if, elseif, else and endif.
+// BlockConditions: which lines of a stream are executed: O words if, elseif, else and endif.
 #pragma once
 
 #include "splinefeed/s0_program/text/word_evaluator.hpp"
@@ -12,7 +12,7 @@ namespace splinefeed {
 /// Lines come one by one and are not kept, so what goes back, loops and subprograms, is refused: grblHAL does the same
 /// outside of files (ngc_flowctrl.c). Unlike there a condition within lines that are left out may have any label.
 /// Memory: 0.2 KB.
-class LineConditions {
+class BlockConditions {
 public:
     static constexpr std::size_t deepest = 10; ///< conditions within conditions
 

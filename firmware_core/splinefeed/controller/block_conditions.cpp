@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/controller/line_conditions.hpp"
+#include "splinefeed/controller/block_conditions.hpp"
 
 namespace splinefeed {
 
@@ -60,12 +60,12 @@ void step_over_number(TextCursor& text) noexcept {
 
 } // namespace
 
-bool LineConditions::executes() const noexcept {
+bool BlockConditions::executes() const noexcept {
     return count_ == 0 || open_[count_ - 1].branch == Branch::executes;
 }
 
-BlockStatus LineConditions::take(std::string_view line, WordEvaluator& values, const BlockInterpreter& control,
-                                 bool& executes) noexcept {
+BlockStatus BlockConditions::take(std::string_view line, WordEvaluator& values, const BlockInterpreter& control,
+                                  bool& executes) noexcept {
     TextCursor text(line);
     step_over_number(text);
     const TextCursor begin = text;
