@@ -84,7 +84,7 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
     if (element.shape != MoveShape::line || element.mode == PathMode::exact_stop || !(tolerance_ > S{}) ||
         !(length > literal<S>(shortest_line) && length < literal<S>(longest_line))) {
         kind_ = Kind::single;
-        held_ = {element, index};
+        kept_ = {element, index};
         return;
     }
     kind_ = Kind::chain;
@@ -362,7 +362,7 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out) noexcept {
         return finished_ ? Pull::finished : Pull::starved;
     }
     if (kind_ == Kind::single) {
-        out = held_;
+        out = kept_;
         begin_pending(out.element.to);
         return Pull::item;
     }
