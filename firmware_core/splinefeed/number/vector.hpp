@@ -137,6 +137,16 @@ template <Scalar S>
     return each(count, [&](unsigned k) { return distance<S>(from[k], to[k], unit_log2); });
 }
 
+/// The coordinates in mm, for the host.
+[[nodiscard]] constexpr PerAxis<double> to_mm(const PerAxis<Position>& place, int count) noexcept {
+    return each(count, [&](unsigned k) { return to_mm(place[k]); });
+}
+
+/// The nearest positions, for the host. @pre position_representable() of each
+[[nodiscard]] constexpr PerAxis<Position> position_from_mm(const PerAxis<double>& mm, int count) noexcept {
+    return each(count, [&](unsigned k) { return position_from_mm(mm[k]); });
+}
+
 /// The i-th control point.
 template <class Row>
 [[nodiscard]] constexpr auto column(const PerAxis<Row>& control, unsigned i, int count) noexcept {
