@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/gpio_port.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::hal::gpio {
@@ -276,10 +278,7 @@ void GpioPort::touch(const std::optional<PerAxis<std::int64_t>>& counts) {
 }
 
 void GpioPort::take_changes() {
-    PerAxis<std::int64_t> counts{};
-    for (const unsigned k : indices(settings_.machine.axes)) {
-        counts[k] = port_.counts(static_cast<int>(k));
-    }
+    const auto counts = each(settings_.machine.axes, [&](unsigned k) { return port_.counts(static_cast<int>(k)); });
     stops_.follow(counts, time_->now_us());
     const bool contact = probe_ && inputs_.active(*probe_); // before its change, which then is there
     while (const auto change = inputs_.take()) {
