@@ -9,7 +9,7 @@ namespace splinefeed::host {
 
 ProgramReport::ProgramReport(const MachineDescription& machine) : axes_(machine.settings.axes) {
     const auto& axis = machine.settings.axis;
-    const bool linear = any_of(axes_, [&](unsigned k) { return !axis[k].rotary; });
+    const bool linear = for_any(axes_, [&](unsigned k) { return !axis[k].rotary; });
     counts_ = each(axes_, [&](unsigned k) { return !linear || !axis[k].rotary; });
 }
 

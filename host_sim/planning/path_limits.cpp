@@ -25,8 +25,8 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
 }
 
 bool PathLimits::contain(const PerAxis<double>& low, const PerAxis<double>& high, double margin) const noexcept {
-    return all_of(axes_,
-                  [&](unsigned k) { return low[k] - margin >= axis_[k].low && high[k] + margin <= axis_[k].high; });
+    return for_all(axes_,
+                   [&](unsigned k) { return low[k] - margin >= axis_[k].low && high[k] + margin <= axis_[k].high; });
 }
 
 std::optional<std::string> PathLimits::violation(const CurveSegment<double>& segment) const {

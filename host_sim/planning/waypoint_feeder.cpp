@@ -15,7 +15,7 @@ namespace {
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
 bool same_point(const WaypointRow& a, const WaypointRow& b) {
-    return all_of(max_axes, [&](unsigned k) { return std::fabs(a.position[k] - b.position[k]) < same_point_mm; });
+    return for_all(max_axes, [&](unsigned k) { return std::fabs(a.position[k] - b.position[k]) < same_point_mm; });
 }
 
 } // namespace

@@ -24,8 +24,8 @@ TEMPLATE_TEST_CASE("Vectors: the axes that count, in their order", "[vector]", d
     CHECK(dot(a, b, axes) == from_integer<S>(-5));
     CHECK(dot(a, b, 1) == from_integer<S>(3));
     CHECK(difference(a, b, axes) == pair_of<S>(2, -6));
-    CHECK(sum(a, b, axes) == pair_of<S>(4, -2));
-    CHECK(sum(a, b, 1) == pair_of<S>(4, 0));
+    CHECK(plus(a, b, axes) == pair_of<S>(4, -2));
+    CHECK(plus(a, b, 1) == pair_of<S>(4, 0));
     CHECK(largest_size(a, axes) == from_integer<S>(4));
     CHECK(largest_size(a, 1) == from_integer<S>(3));
 }
@@ -46,11 +46,11 @@ TEMPLATE_TEST_CASE("Vectors: in place, what is behind the count stays", "[vector
 TEST_CASE("Vectors: what is asked of each axis", "[vector]") {
     CHECK(each(axes, [](unsigned k) { return static_cast<int>(k) + 1; }) == PerAxis<int>{1, 2});
     CHECK(sum_of(axes, [](unsigned k) { return static_cast<int>(k) + 1; }) == 3);
-    CHECK(all_of(axes, [](unsigned k) { return k < 2; }));
-    CHECK_FALSE(all_of(axes, [](unsigned k) { return k < 1; }));
-    CHECK(any_of(axes, [](unsigned k) { return k == 1; }));
-    CHECK_FALSE(any_of(1, [](unsigned k) { return k == 1; }));
-    CHECK(all_of(0, [](unsigned) { return false; }));
+    CHECK(for_all(axes, [](unsigned k) { return k < 2; }));
+    CHECK_FALSE(for_all(axes, [](unsigned k) { return k < 1; }));
+    CHECK(for_any(axes, [](unsigned k) { return k == 1; }));
+    CHECK_FALSE(for_any(1, [](unsigned k) { return k == 1; }));
+    CHECK(for_all(0, [](unsigned) { return false; }));
 }
 
 TEST_CASE("Vectors: of places and of control points", "[vector]") {
@@ -61,6 +61,6 @@ TEST_CASE("Vectors: of places and of control points", "[vector]") {
     PerAxis<PerDegree<double>> control{};
     control[0] = {1.0, 2.0, 4.0};
     control[1] = {5.0, 3.0, 2.0};
-    CHECK(column(control, 2, axes) == PerAxis<double>{4.0, 2.0});
+    CHECK(control_at(control, 2, axes) == PerAxis<double>{4.0, 2.0});
     CHECK(leg(control, 0, 2, axes) == PerAxis<double>{3.0, -3.0});
 }

@@ -42,8 +42,8 @@ template <Numeric N, std::size_t capacity>
 
 /// a + b; 0 behind the count.
 template <Numeric N, std::size_t capacity>
-[[nodiscard]] constexpr std::array<N, capacity> sum(const std::array<N, capacity>& a, const std::array<N, capacity>& b,
-                                                    int count) noexcept {
+[[nodiscard]] constexpr std::array<N, capacity> plus(const std::array<N, capacity>& a, const std::array<N, capacity>& b,
+                                                     int count) noexcept {
     std::array<N, capacity> out{};
     for (const unsigned k : indices(count)) {
         out[k] = a[k] + b[k];
@@ -115,7 +115,7 @@ template <Numeric N, std::size_t capacity>
 
 /// Whether f(k) holds for each axis; it is not asked behind the first for which it does not.
 template <class F>
-[[nodiscard]] constexpr bool all_of(int count, F&& f) noexcept {
+[[nodiscard]] constexpr bool for_all(int count, F&& f) noexcept {
     for (const unsigned k : indices(count)) {
         if (!f(k)) {
             return false;
@@ -126,8 +126,8 @@ template <class F>
 
 /// The same for any axis.
 template <class F>
-[[nodiscard]] constexpr bool any_of(int count, F&& f) noexcept {
-    return !all_of(count, [&f](unsigned k) { return !f(k); });
+[[nodiscard]] constexpr bool for_any(int count, F&& f) noexcept {
+    return !for_all(count, [&f](unsigned k) { return !f(k); });
 }
 
 /// distance() of each axis; 0 behind the count.
@@ -149,7 +149,7 @@ template <Scalar S>
 
 /// The i-th control point.
 template <class Row>
-[[nodiscard]] constexpr auto column(const PerAxis<Row>& control, unsigned i, int count) noexcept {
+[[nodiscard]] constexpr auto control_at(const PerAxis<Row>& control, unsigned i, int count) noexcept {
     return each(count, [&](unsigned k) { return control[k][i]; });
 }
 

@@ -60,7 +60,7 @@ void halve(PerAxis<PerDegree<S>>& points, PerAxis<PerDegree<S>>& rest, int degre
 
 template <Scalar S>
 Status BlendedPath<S>::start(const PerAxis<Position>& position) noexcept {
-    if (any_of(axes_, [&](unsigned k) { return position[k].raw > farthest_raw || position[k].raw < -farthest_raw; })) {
+    if (for_any(axes_, [&](unsigned k) { return position[k].raw > farthest_raw || position[k].raw < -farthest_raw; })) {
         return Error::position_out_of_range;
     }
     last_ = here_ = position;
@@ -72,7 +72,7 @@ template <Scalar S>
 Status BlendedPath<S>::measure(const PerAxis<Position>& from, const PathElement<S>& element, int axes,
                                PathMove<S>& out) noexcept {
     const PerAxis<Position>& to = element.to;
-    if (any_of(axes, [&](unsigned k) { return to[k].raw > farthest_raw || to[k].raw < -farthest_raw; })) {
+    if (for_any(axes, [&](unsigned k) { return to[k].raw > farthest_raw || to[k].raw < -farthest_raw; })) {
         return Error::position_out_of_range;
     }
     if (!(element.tolerance_mm >= S{} && element.tolerance_mm <= literal<S>(most_tolerance_mm)) ||
@@ -228,7 +228,7 @@ void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
     int degree = 1;
     if (present.move.shape() == MoveShape::bezier) {
         degree = present.move.bezier_part(before_, after_, points);
-        const PerAxis<S> end = column(points, static_cast<unsigned>(degree), axes_);
+        const PerAxis<S> end = control_at(points, static_cast<unsigned>(degree), axes_);
         there = after_ > S{} ? offset_by(present.move.from(), end, axes_) : present.move.to();
         place_ends(points, degree, there);
     } else {
@@ -315,7 +315,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
         }
     }
     describe(stage_ == Stage::second_half && last ? behind : present, blend_.degree, out);
-    const PerAxis<S> end = column(points, degree, axes_);
+    const PerAxis<S> end = control_at(points, degree, axes_);
     out.origin = vertex;
     here_ = out.end = offset_by(vertex, end, axes_);
     out.assign(points);

@@ -77,7 +77,7 @@ bool mean_direction(const Derivatives<S>& a, const Derivatives<S>& b, int axes, 
     if (norm(difference(to, from, axes), axes) > literal<S>(0x1p-10)) {
         return false;
     }
-    direction = sum(from, to, axes);
+    direction = plus(from, to, axes);
     divide(direction, norm(direction, axes), axes);
     return true;
 }

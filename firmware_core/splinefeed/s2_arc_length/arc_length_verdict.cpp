@@ -63,8 +63,8 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 // needs none of it where the plan speeds up and brakes within a cell.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
-    if (any_of(current().axes,
-               [&](unsigned k) { return m_.length_mm * absolute(m_.first[1][k]) > refinement_.longest_mm[k]; })) {
+    if (for_any(current().axes,
+                [&](unsigned k) { return m_.length_mm * absolute(m_.first[1][k]) > refinement_.longest_mm[k]; })) {
         return true;
     }
     if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
