@@ -14,7 +14,7 @@ using namespace splinefeed::hal::gpio;
 
 namespace {
 
-class NoLines final : public LineWriter {
+class NoPins final : public PinWriter {
 public:
     [[nodiscard]] bool set(std::uint64_t /*mask*/, std::uint64_t /*levels*/) noexcept override { return true; }
 };
@@ -24,7 +24,7 @@ void edges_late(benchmark::State& state) {
     constexpr std::uint32_t ticks = 8000;
     constexpr int segments = 3000;
     const AwakeHost awake;
-    NoLines lines;
+    NoPins lines;
     for (auto _ : state) { // NOLINT(clang-analyzer-deadcode.DeadStores)
         ChipOutputs chip{.writer = &lines};
         chip.step[0] = {1, 0};

@@ -38,11 +38,11 @@ else()
 endif()
 
 file(GLOB gpio_sources CONFIGURE_DEPENDS splinefeed/hal/gpio/*.cpp)
-list(FILTER gpio_sources EXCLUDE REGEX "/lines_v[12]\\.cpp$")
-add_library(splinefeed_hal_gpio STATIC ${gpio_sources} splinefeed/hal/gpio/lines_v${gpiod_version}.cpp)
+list(FILTER gpio_sources EXCLUDE REGEX "/pins_v[12]\\.cpp$")
+add_library(splinefeed_hal_gpio STATIC ${gpio_sources} splinefeed/hal/gpio/pins_v${gpiod_version}.cpp)
 add_library(splinefeed::hal_gpio ALIAS splinefeed_hal_gpio)
 splinefeed_options(splinefeed_hal_gpio)
-splinefeed_unity(splinefeed_hal_gpio "lines=/lines_v") # which a test replaces
+splinefeed_unity(splinefeed_hal_gpio "pins=/pins_v") # which a test replaces
 splinefeed_sanitize_fully(splinefeed_hal_gpio)
 splinefeed_precompile(splinefeed_hal_gpio <algorithm> <atomic> <functional> <memory> <mutex> <string> <thread> <vector>)
 target_include_directories(splinefeed_hal_gpio SYSTEM PRIVATE ${SPLINEFEED_GPIOD_INCLUDE})

@@ -299,7 +299,7 @@ private:
     splinefeed::TickDda<Axes> dda_{};
     StepShaper<Axes> shaper_{};
     Lookahead lookahead_;
-    Lines out_{};
+    Pins out_{};
     PerAxis<std::int32_t> end_{};
     std::uint32_t rests_passed_ = 0;
     std::uint32_t rate_ = 0;

@@ -9,7 +9,7 @@
 namespace firmware {
 
 /// What the lines of all axes show during one tick; bit k is axis k.
-struct Lines {
+struct Pins {
     std::uint32_t step = 0;
     std::uint32_t up = 0;
 };
@@ -25,7 +25,7 @@ public:
     static constexpr unsigned delay = 3;
 
     /// @param steps  of this tick; nothing steps in two successive ticks in the same direction
-    Lines next(splinefeed::StepBits steps) noexcept {
+    Pins next(splinefeed::StepBits steps) noexcept {
         Steps now;
         for (unsigned k = 0; k < Axes; ++k) {
             now.step |= ((steps.bits >> (2 * k)) & 1U) << k;

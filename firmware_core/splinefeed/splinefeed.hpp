@@ -13,9 +13,9 @@
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 // G-code to lines, arcs and events.
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
 
 // Lines and arcs to curves within a tolerance.
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tp_motion.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s3_feed_plan/limits/limit_errors.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
 
@@ -77,11 +78,7 @@ void TpMotion::create(const tpc_settings& settings, const tpc_machine& machine) 
 }
 
 Mm TpMotion::mm_of(const double* position) const noexcept {
-    Mm out{};
-    for (const unsigned k : indices(machine_.axes)) {
-        out[k] = position[machine_.axis[k]] * scale(k);
-    }
-    return out;
+    return each(machine_.axes, [&](unsigned k) { return position[machine_.axis[k]] * scale(k); });
 }
 
 // At standstill; what is queued stays.
@@ -114,16 +111,15 @@ void TpMotion::set(const double* position) noexcept {
 
 // The length of a move from there, and its directions. 0; or -1: it has no length; or the core's error.
 int TpMotion::measure(const Mm& from, QueuedMove& out) noexcept {
-    double length_sq = 0.0;
-    PerAxis<Position> start{};
-    for (const unsigned k : indices(machine_.axes)) {
-        start[k] = position_from_mm(from[k]);
-        const double way = out.to[k] - from[k];
-        length_sq += way * way;
+    Mm straight = difference(out.to, from, machine_.axes);
+    const double length_sq = dot(straight, straight, machine_.axes);
+    if (length_sq > 0.0) {
+        divide(straight, std::sqrt(length_sq), machine_.axes);
+    } else {
+        straight = {};
     }
-    for (const unsigned k : indices(machine_.axes)) {
-        out.in[k] = out.out[k] = length_sq > 0.0 ? (out.to[k] - from[k]) / std::sqrt(length_sq) : 0.0;
-    }
+    out.in = out.out = straight;
+    const PerAxis<Position> start = position_from_mm(from, machine_.axes);
     if (out.element.shape == MoveShape::arc) {
         set_directions(out.element, from, out);
     }
@@ -204,10 +200,7 @@ const char* TpMotion::begin_path() noexcept {
     const double segments = machine_.period_s * ticks_per_s / limits_.segment_ticks;
     per_period_ = larger(1U, static_cast<unsigned>(segments + 0.5));
     rules_ = path_rules(settings);
-    PerAxis<Position> start{};
-    for (const unsigned k : indices(machine_.axes)) {
-        start[k] = position_from_mm(at_[k]);
-    }
+    const PerAxis<Position> start = position_from_mm(at_, machine_.axes);
     Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
     stream_.build(limits_, planner, rules_);
     if (const Status placed = stream_->place(start); !placed.ok()) {

@@ -7,6 +7,8 @@
 // again in the same way.
 #include "tp_motion.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <cmath>
 
 namespace splinefeed::linuxcnc {
@@ -109,9 +111,7 @@ Status TpMotion::lead() noexcept {
     arc.stands_before = false;
     PathElement<double> line = arc.element;
     line.shape = MoveShape::line;
-    for (const unsigned k : indices(machine_.axes)) {
-        line.to[k] = position_from_mm(lead_to_[k]);
-    }
+    line.to = position_from_mm(lead_to_, machine_.axes);
     base_ = pushed_ - 1U;
     const Result<bool> taken = stream_->push(line);
     return taken.has_value() ? Status{} : taken.error();

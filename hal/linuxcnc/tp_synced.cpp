@@ -3,6 +3,8 @@
 // Moves that follow the spindle's position, one behind the other, from rest to rest and without the trajectory.
 #include "tp_motion.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <cmath>
 
 namespace splinefeed::linuxcnc {
@@ -12,20 +14,16 @@ SpindleSync::Leg TpMotion::leg(unsigned n, const Mm& from) noexcept {
     const QueuedMove& here = move(n);
     const bool to_bottom = here.taps && tap_ != Tap::returns;
     const Mm& to = to_bottom ? here.bottom : here.to;
-    double xyz_sq = 0.0;
-    double all_sq = 0.0;
-    for (const unsigned k : indices(machine_.axes)) {
-        const double way = to[k] - from[k];
-        all_sq += way * way;
-        xyz_sq += k < 3 ? way * way : 0.0;
-    }
+    const Mm way = difference(to, from, machine_.axes);
+    const double all_sq = dot(way, way, machine_.axes);
+    const double xyz_sq = dot(way, way, smaller(machine_.axes, 3));
     SpindleSync::Leg out;
     out.length = std::sqrt(xyz_sq > 0.0 ? xyz_sq : all_sq);
     out.pitch = here.pitch_mm;
     out.both_ways = to_bottom;
     out.limits.velocity = out.limits.acceleration = out.limits.jerk = largest<double>();
     for (const unsigned k : indices(machine_.axes)) {
-        const double part = std::fabs(to[k] - from[k]) / out.length / scale(k);
+        const double part = std::fabs(way[k]) / out.length / scale(k);
         if (part > 0.0) {
             out.limits.velocity = smaller(out.limits.velocity, machine_.velocity[k] / part);
             out.limits.acceleration = smaller(out.limits.acceleration, machine_.acceleration[k] / part);
@@ -50,10 +48,7 @@ bool TpMotion::overlaps(unsigned n) noexcept {
 // What may be left of the move under way when the next one begins, to round the corner within the tolerance.
 double TpMotion::left_to_join() noexcept {
     const QueuedMove& here = move(first_);
-    double cosine = 0.0;
-    for (const unsigned k : indices(machine_.axes)) {
-        cosine += here.out[k] * move(first_ + 1U).in[k];
-    }
+    const double cosine = dot(here.out, move(first_ + 1U).in, machine_.axes);
     const double sine = cosine > 0.0 ? std::sqrt(larger(1.0 - cosine * cosine, 0.0)) : 1.0;
     return here.element.tolerance_mm / larger(sine, 1e-6);
 }

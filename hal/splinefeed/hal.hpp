@@ -12,8 +12,8 @@
 
 #ifdef SPLINEFEED_HAS_GPIO // splinefeed::hal_gpio
 #include "splinefeed/hal/gpio/gpio_port.hpp"
-#include "splinefeed/hal/gpio/input_lines.hpp"
+#include "splinefeed/hal/gpio/input_pins.hpp"
 #include "splinefeed/hal/gpio/input_watch.hpp"
-#include "splinefeed/hal/gpio/output_lines.hpp"
+#include "splinefeed/hal/gpio/output_pins.hpp"
 #include "splinefeed/hal/gpio/step_port.hpp"
 #endif

@@ -8,6 +8,8 @@
 
 #include "host_sim/analysis/path_strand.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -35,11 +37,8 @@ double curve_length(const PathStrand& strand, int axes, double& least_radius) {
     }
     constexpr int parts = 64;
     const auto between = [axes](const PerAxis<double>& a, const PerAxis<double>& b) {
-        double sum = 0.0;
-        for (const unsigned k : indices(axes)) {
-            sum += (b[k] - a[k]) * (b[k] - a[k]);
-        }
-        return std::sqrt(sum);
+        const PerAxis<double> way = difference(b, a, axes);
+        return std::sqrt(dot(way, way, axes));
     };
     double length = 0.0;
     PerAxis<double> older = strand.at(0.0);
@@ -90,15 +89,11 @@ double ExactStopTime::feed_of(const PathElement<double>& move) const noexcept {
 }
 
 double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept {
-    double length_sq = 0.0;
-    double linear_sq = 0.0;
-    PerAxis<double> way{};
-    for (const unsigned k : indices(settings_->axes)) {
-        way[k] = to_mm(Position{move.to[k].raw - here_[k].raw});
-        length_sq += way[k] * way[k];
-        linear_sq += settings_->axis[k].rotary ? 0.0 : way[k] * way[k];
-    }
-    const double length = std::sqrt(length_sq);
+    const int axes = settings_->axes;
+    const PerAxis<double> way = distances<double>(here_, move.to, 0, axes);
+    const double linear_sq =
+        sum_of(axes, [&](unsigned k) { return settings_->axis[k].rotary ? 0.0 : way[k] * way[k]; });
+    const double length = std::sqrt(dot(way, way, axes));
     double speed = linear_sq > 0.0 ? feed_of(move) * length / std::sqrt(linear_sq) : unlimited;
     double acceleration = unlimited;
     double jerk = unlimited;

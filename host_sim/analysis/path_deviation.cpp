@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_deviation.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -80,9 +82,7 @@ PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, d
 
 void PathDeviation::start(const PerAxis<Position>& position) {
     here_ = whole_end_ = position;
-    for (const unsigned k : indices(axes_)) {
-        reached_mm_[k] = to_mm(position[k]);
-    }
+    reached_mm_ = to_mm(position, axes_);
 }
 
 void PathDeviation::stop() {
@@ -104,19 +104,11 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
         }
         added.rounding = arc_error * added.strand.radius() + spiral_error(*arc, others_sq);
     }
-    double largest = 0.0;
-    double farthest = 0.0;
-    double apart_sq = 0.0;
-    for (const unsigned k : indices(axes_)) {
-        const double way = std::fabs(to_mm(Position{move.to[k].raw - here_[k].raw}));
-        largest = std::fmax(largest, way);
-        const double apart = std::fabs(to_mm(Position{move.to[k].raw - whole_end_[k].raw}));
-        farthest = std::fmax(farthest, apart);
-        apart_sq += apart * apart;
-    }
+    const double largest = largest_size(distances<double>(here_, move.to, 0, axes_), axes_);
+    const PerAxis<double> apart = distances<double>(whole_end_, move.to, 0, axes_);
     added.rounding += rounding_ * std::fmax(largest, added.strand.radius());
-    if (move.shape != MoveShape::arc && farthest < left_out_below_mm) {
-        leave_out(added, std::sqrt(apart_sq));
+    if (move.shape != MoveShape::arc && largest_size(apart, axes_) < left_out_below_mm) {
+        leave_out(added, std::sqrt(dot(apart, apart, axes_)));
     } else {
         join(added);
         whole_end_ = move.to;
@@ -215,12 +207,7 @@ double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet&
     if (best < any_distance) {
         return best;
     }
-    double sum = 0.0;
-    for (const unsigned n : indices(set.count)) {
-        const double apart = reached_mm_[set.axis[n]] - point[set.axis[n]];
-        sum += apart * apart;
-    }
-    return std::sqrt(sum);
+    return std::sqrt(distance_sq(reached_mm_, point, set));
 }
 
 void PathDeviation::found(unsigned set, const Found& found) {

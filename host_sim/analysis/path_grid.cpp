@@ -9,6 +9,8 @@
 // |q''_k| b <= A_k.
 #include "host_sim/analysis/path_grid.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,10 +63,8 @@ double PathGrid::acceleration(unsigned k, double slope, bool speeding) const noe
 
 // The feed counts linear axes, and rotary ones in a segment in which these stand.
 double PathGrid::feed_cap_sq(const PerAxis<double>& q1) const noexcept {
-    double linear_sq = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
-        linear_sq += machine_.axis[k].rotary ? 0.0 : q1[k] * q1[k];
-    }
+    const double linear_sq =
+        sum_of(machine_.axes, [&](unsigned k) { return machine_.axis[k].rotary ? 0.0 : q1[k] * q1[k]; });
     return linear_sq * fastest_sq_ > feed_sq_ ? feed_sq_ / linear_sq : fastest_sq_;
 }
 
@@ -157,12 +157,8 @@ PathInterval PathGrid::interval(const Node& from, const Node& to) const noexcept
     const double step = to.u - from.u;
     const double ends = 7.0 * (from.sigma + to.sigma);
     out.length_mm = step * (ends + 16.0 * sigma(from.u + 0.5 * step) + 0.5 * step * (from.slope - to.slope)) / 30.0;
-    double chord_sq = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
-        const double moved = to.position[k] - from.position[k];
-        chord_sq += moved * moved;
-    }
-    out.length_mm = std::max(out.length_mm, std::sqrt(chord_sq));
+    const PerAxis<double> chord = difference(to.position, from.position, machine_.axes);
+    out.length_mm = std::max(out.length_mm, std::sqrt(dot(chord, chord, machine_.axes)));
     PerAxis<double> direction{};
     PerAxis<double> curvature{};
     for (unsigned k = 0; k < axes_; ++k) {
@@ -214,12 +210,8 @@ void PathGrid::append_pieces(std::vector<PathInterval>& out) {
     Node from = node(0.0);
     while (depth > 0) {
         const Piece& top = stack[depth - 1];
-        double turn = 0.0;
-        double cosine = 0.0;
-        for (unsigned k = 0; k < axes_; ++k) {
-            turn = std::max(turn, std::fabs(top.to.direction[k] - from.direction[k]));
-            cosine += top.to.direction[k] * from.direction[k];
-        }
+        const double turn = largest_size(difference(top.to.direction, from.direction, machine_.axes), machine_.axes);
+        const double cosine = dot(top.to.direction, from.direction, machine_.axes);
         bool coarse = (top.level < least_level_ && degree_ > 1) || (top.level < deepest && turn > most_turn);
         PathInterval piece;
         if (!coarse) {
@@ -246,15 +238,9 @@ void PathGrid::append_pieces(std::vector<PathInterval>& out) {
 }
 
 bool PathGrid::jumps(const PerAxis<double>& in, const PerAxis<double>& out, double slack) const noexcept {
-    double in_sq = 0.0;
-    double out_sq = 0.0;
-    double jump = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
-        in_sq += in[k] * in[k];
-        out_sq += out[k] * out[k];
-        jump = std::max(jump, std::fabs(out[k] - in[k]));
-    }
-    return !(in_sq > 0.0) || !(out_sq > 0.0) || jump > direction_jump_ + slack;
+    const int axes = machine_.axes;
+    return !(dot(in, in, axes) > 0.0) || !(dot(out, out, axes) > 0.0) ||
+           largest_size(difference(out, in, axes), axes) > direction_jump_ + slack;
 }
 
 // Bezier to powers: binomial coefficient times forward difference.
@@ -300,13 +286,11 @@ void PathGrid::take_feed(double programmed_mm_s) {
 }
 
 void PathGrid::normalise(PerAxis<double>& direction) const {
-    double norm_sq = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
-        norm_sq += direction[k] * direction[k];
-    }
-    const double norm = std::sqrt(norm_sq);
-    for (unsigned k = 0; k < axes_; ++k) {
-        direction[k] = norm < negligible_units_ ? 0.0 : direction[k] / norm;
+    const double length = std::sqrt(dot(direction, direction, machine_.axes));
+    if (length < negligible_units_) {
+        direction = {};
+    } else {
+        divide(direction, length, machine_.axes);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_strand.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -135,14 +137,15 @@ PathStrand::State PathStrand::state(double t) const noexcept {
     return out;
 }
 
+double distance_sq(const PerAxis<double>& a, const PerAxis<double>& b, const AxisSet& set) noexcept {
+    return sum_of(set.count, [&](unsigned n) {
+        const double apart = a[set.axis[n]] - b[set.axis[n]];
+        return apart * apart;
+    });
+}
+
 double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept {
-    const PerAxis<double> place = at(t);
-    double sum = 0.0;
-    for (const unsigned n : indices(set.count)) {
-        const double apart = place[set.axis[n]] - point[set.axis[n]];
-        sum += apart * apart;
-    }
-    return sum;
+    return host::distance_sq(at(t), point, set);
 }
 
 double PathStrand::Box::distance_sq(const PerAxis<double>& point, const AxisSet& set) const noexcept {
@@ -183,11 +186,7 @@ PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& 
             continue;
         }
         for (std::size_t i = b * block; i < std::min((b + 1) * block, places_.size()); ++i) {
-            double sum = 0.0;
-            for (const unsigned n : indices(set.count)) {
-                const double apart = places_[i][set.axis[n]] - point[set.axis[n]];
-                sum += apart * apart;
-            }
+            const double sum = host::distance_sq(places_[i], point, set);
             if (sum < best_sq) {
                 best_sq = sum;
                 nearest = i;

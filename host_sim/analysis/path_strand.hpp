@@ -18,6 +18,9 @@ struct AxisSet {
     std::array<unsigned, max_axes> axis{};
 };
 
+/// The square of the distance of two places, by these axes.
+[[nodiscard]] double distance_sq(const PerAxis<double>& a, const PerAxis<double>& b, const AxisSet& set) noexcept;
+
 class PathStrand {
 public:
     /// A programmed move from a place.

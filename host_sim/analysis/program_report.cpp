@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/program_report.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::host {
 
 ProgramReport::ProgramReport(const MachineDescription& machine) : axes_(machine.settings.axes) {
-    bool linear = false;
-    for (const unsigned k : indices(axes_)) {
-        linear = linear || !machine.settings.axis[k].rotary;
-    }
-    for (const unsigned k : indices(axes_)) {
-        counts_[k] = !linear || !machine.settings.axis[k].rotary;
-    }
+    const auto& axis = machine.settings.axis;
+    const bool linear = for_any(axes_, [&](unsigned k) { return !axis[k].rotary; });
+    counts_ = each(axes_, [&](unsigned k) { return !linear || !axis[k].rotary; });
 }
 
 void ProgramReport::move(const PathElement<double>& move, bool rapid, std::uint64_t line) {

@@ -6,6 +6,8 @@
 // result is never below the true distance.
 #include "host_sim/analysis/waypoint_error.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,10 +59,7 @@ bool comes_before(std::uint32_t index, std::uint32_t other) {
 } // namespace
 
 double WaypointError::Piece::distance_mm(const PerAxis<Position>& position) const noexcept {
-    PerAxis<double> target{};
-    for (const unsigned k : indices(axes)) {
-        target[k] = to_mm(Position{position[k].raw - origin[k].raw}); // exact before it is rounded
-    }
+    const PerAxis<double> target = distances<double>(origin, position, 0, axes); // exact before it is rounded
     const auto approach = [&](double u) noexcept {
         Approach at;
         double tangent_sq = 0.0;

@@ -2,7 +2,7 @@
 // decimal_number: the numbers of programs and state files as double, and back.
 #pragma once
 
-#include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/text/decimal.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "host_sim/base/toml_text.hpp"
 #include "host_sim/config/axis_name.hpp"
 #include "host_sim/config/gpio_map_keys.hpp"
-#include "host_sim/config/gpio_map_lines.hpp"
+#include "host_sim/config/gpio_map_pins.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ public:
         }
     }
 
-    LineMap map(const toml::table& root) {
+    PinMap map(const toml::table& root) {
         check_.require_known(root, map_table);
         if (const toml::node* consumer = root.get("consumer")) {
             map_.consumer = check_.text(*consumer, "consumer");
@@ -116,14 +116,14 @@ private:
                             key, axis_names_[k]);
             }
         }
-        AxisLines& lines = map_.axis[k];
+        AxisPins& lines = map_.axis[k];
         lines.motors = static_cast<unsigned>(motors.count);
         for (std::size_t m = 0; m < lines.motors; ++m) {
             // Idle levels: no pulse, and downwards.
             const auto line = [&](std::string_view key, bool idle) {
                 const toml::node& node = check_.required(
                     table, key, where,
-                    m == 0 ? GpioMapLines::what : std::string_view("a line, as the machine file says motors = 2"));
+                    m == 0 ? GpioMapPins::what : std::string_view("a line, as the machine file says motors = 2"));
                 return lines_.output(node, fmt::format("{} of {}", key, where), idle);
             };
             lines.motor[m].step = line(keys[m][0], motors.invert_step);
@@ -132,18 +132,18 @@ private:
     }
 
     void enable(const toml::table& table) {
-        EnableLine enable;
+        EnablePin enable;
         check_.take(table, enable_table, "active", enable.active_level);
-        enable.line = lines_.output(check_.required(table, "line", "[enable]", GpioMapLines::what), "line of [enable]",
+        enable.line = lines_.output(check_.required(table, "line", "[enable]", GpioMapPins::what), "line of [enable]",
                                     !enable.active_level);
         check_.take(table, enable_table, "settle_ms", enable.settle_ms);
         map_.enable = enable;
     }
 
     void brake(const toml::table& table) {
-        BrakeLine brake;
+        BrakePin brake;
         check_.take(table, brake_table, "released", brake.released_level);
-        brake.line = lines_.output(check_.required(table, "line", "[brake]", GpioMapLines::what), "line of [brake]",
+        brake.line = lines_.output(check_.required(table, "line", "[brake]", GpioMapPins::what), "line of [brake]",
                                    !brake.released_level);
         check_.take(table, brake_table, "release_ms", brake.release_ms);
         check_.take(table, brake_table, "engage_ms", brake.engage_ms);
@@ -177,7 +177,7 @@ private:
         check_.take(table, map_input_table, "debounce_us", input.debounce_us);
         Bias bias = Bias::as_is;
         check_.take(table, map_input_table, "bias", bias);
-        input.line = lines_.input(check_.required(table, "line", "[[input]]", GpioMapLines::what),
+        input.line = lines_.input(check_.required(table, "line", "[[input]]", GpioMapPins::what),
                                   fmt::format("line of the input {}", input_roles[kind]), bias);
         for (const MappedInput& other : map_.inputs) {
             if (other.line != input.line) {
@@ -236,20 +236,20 @@ private:
     TomlChecker check_;
     const MachineDescription& machine_;
     std::vector<std::string_view> axis_names_;
-    LineMap map_;
-    GpioMapLines lines_;
+    PinMap map_;
+    GpioMapPins lines_;
 };
 
 } // namespace
 
-LineMap parse_gpio_map(std::string_view text, const std::string& file, const MachineDescription& machine,
-                       const std::string& chip) {
-    LineMap map = Reader(file, machine, chip).map(parse_toml(text, file));
+PinMap parse_gpio_map(std::string_view text, const std::string& file, const MachineDescription& machine,
+                      const std::string& chip) {
+    PinMap map = Reader(file, machine, chip).map(parse_toml(text, file));
     map.file = file;
     return map;
 }
 
-LineMap read_gpio_map(const std::string& file, const MachineDescription& machine, const std::string& chip) {
+PinMap read_gpio_map(const std::string& file, const MachineDescription& machine, const std::string& chip) {
     constexpr std::size_t largest = std::size_t{1} << 20;
     return parse_gpio_map(read_text_file(file, largest), file, machine, chip);
 }

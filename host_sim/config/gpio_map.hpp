@@ -4,7 +4,7 @@
 
 #include "host_sim/config/machine_description.hpp"
 
-#include "splinefeed/hal/gpio/line_map.hpp"
+#include "splinefeed/hal/gpio/pin_map.hpp"
 
 #include <string>
 #include <string_view>
@@ -14,11 +14,11 @@ namespace splinefeed::host {
 /// Reads the file and checks every key against the machine's axes, motors and polarities.
 /// @param chip  chip of lines for which the file names none
 /// Throws InputError, with the line of the error. Whether a chip has these lines is only known when they are requested.
-[[nodiscard]] hal::gpio::LineMap read_gpio_map(const std::string& file, const MachineDescription& machine,
-                                               const std::string& chip);
+[[nodiscard]] hal::gpio::PinMap read_gpio_map(const std::string& file, const MachineDescription& machine,
+                                              const std::string& chip);
 
 /// The same for a text; `file` is its name in messages.
-[[nodiscard]] hal::gpio::LineMap parse_gpio_map(std::string_view text, const std::string& file,
-                                                const MachineDescription& machine, const std::string& chip);
+[[nodiscard]] hal::gpio::PinMap parse_gpio_map(std::string_view text, const std::string& file,
+                                               const MachineDescription& machine, const std::string& chip);
 
 } // namespace splinefeed::host

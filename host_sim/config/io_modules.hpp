@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/base/toml_checker.hpp"
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 
 #include <map>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace splinefeed::host {
 
-/// Fills the list of modules of ProgramLines. Its members throw InputError, with the line of the error.
+/// Fills the list of modules of ProgramPins. Its members throw InputError, with the line of the error.
 class IoModules {
 public:
     /// Reads all [[module]] of the file.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/config/path_tolerances.hpp"
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 #include "host_sim/config/spindle_description.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
@@ -40,7 +40,7 @@ struct MachineDescription {
     PerAxis<std::string> axis_name{};        ///< "x", "y", ...
     PerAxis<std::optional<Travel>> travel{}; ///< soft limits where the file states them
     std::optional<SpindleDescription> spindle{};
-    ProgramLines lines{};
+    ProgramPins lines{};
     StepSettings step{};          ///< of the step and direction lines of all axes
     PerAxis<StepMotors> motors{}; ///< their directions already include `invert`
     PerAxis<bool> inverted{};     ///< the drive counts down where the axis goes up

@@ -8,7 +8,7 @@
 #include "host_sim/config/axis_name.hpp"
 #include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/machine_keys.hpp"
-#include "host_sim/config/program_lines_section.hpp"
+#include "host_sim/config/program_pins_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
 #include "host_sim/config/toml_setting.hpp"
 
@@ -49,7 +49,7 @@ public:
         check_.attempt([&] { path(root, machine.settings, machine.tolerances); });
         check_.attempt([&] { step(root, machine.step); });
         check_.attempt([&] { machine.spindle = read_spindle(check_, root); });
-        check_.attempt([&] { machine.lines = read_program_lines(check_, root, machine.spindle); });
+        check_.attempt([&] { machine.lines = read_program_pins(check_, root, machine.spindle); });
         check_.attempt([&] { axes(root, machine); });
         machine.tolerances.rules = path_rules(machine.settings, machine.tolerances.joint_mm);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {

@@ -4,7 +4,7 @@
 
 #include "host_sim/config/line_keys.hpp"
 #include "host_sim/config/path_tolerances.hpp"
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
 #include "splinefeed/s5_pulse_train/step_timing.hpp"

@@ -10,9 +10,9 @@ namespace splinefeed::host {
 struct PathTolerances {
     double joint_mm = 0.001;     ///< of exact paths, where they turn by less than a degree or the curvature jumps
     double programmed_mm = 0.01; ///< elements that state no tolerance
-    double rapid_mm = 0.1;       ///< rapids
-    double rotary_deg = 100.0;   ///< of rotary axes, where a move's own number is larger
-    PerAxis<bool> rotary{};      ///< no key: of the machine
+    double rapid_mm = 0.1;
+    double rotary_deg = 100.0;                               ///< of rotary axes, where a move's own number is larger
+    PerAxis<bool> rotary{};                                  ///< no key: of the machine
     PathRules<double> rules = path_rules(MachineSettings{}); ///< no key: of the machine
 };
 

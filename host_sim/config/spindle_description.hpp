@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/config/drive_address.hpp"
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
@@ -23,7 +23,7 @@ struct SpindleDescription {
     double ramp_s = 0.0;              ///< from standstill to max_rpm, as the simulated machine counts it
     double at_speed_timeout_s = 10.0; ///< a spindle that takes longer ends the run
     std::optional<Vfd> vfd{};
-    std::optional<SpindleLines> lines{}; ///< neither vfd nor lines: real targets have no spindle
+    std::optional<SpindlePins> lines{}; ///< neither vfd nor lines: real targets have no spindle
 
     [[nodiscard]] bool is_controlled() const noexcept { return vfd || lines; }
     /// How long the simulated machine waits for a change of speed; speeds have the sign of their direction.

@@ -9,7 +9,7 @@
 
 namespace splinefeed::host {
 
-/// Nothing if the file has no [spindle]. Its lines are read by read_program_lines(). Throws InputError.
+/// Nothing if the file has no [spindle]. Its lines are read by read_program_pins(). Throws InputError.
 [[nodiscard]] std::optional<SpindleDescription> read_spindle(const TomlChecker& check, const toml::table& root);
 
 } // namespace splinefeed::host

@@ -6,7 +6,7 @@
 #include "host_sim/base/resource_claim.hpp"
 
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 #include <optional>
 #include <string>

@@ -27,7 +27,7 @@ microseconds from_ms(double ms) {
 } // namespace
 
 DriveServer::DriveServer(DriveModel& model, const ListenAddress& address, DriveFaults faults, std::uint64_t seed)
-    : model_(&model), line_(address), exchange_(model, line_.address()), faults_(std::move(faults)),
+    : model_(&model), wire_(address), exchange_(model, wire_.address()), faults_(std::move(faults)),
       dice_(faults_, seed), start_(Clock::now()), line_free_(start_) {}
 
 double DriveServer::start_s() const noexcept {
@@ -47,11 +47,11 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
     while (stop == 0) {
         fire_events(Clock::now());
         const bool deaf = thaws_.has_value() || connects_.has_value();
-        line_.wait(until_next(Clock::now()), deaf);
+        wire_.wait(until_next(Clock::now()), deaf);
         Clock::time_point now = Clock::now();
         advance(now);
         if (!deaf) {
-            for (DriveLine::Request& request : line_.receive()) {
+            for (DriveWire::Request& request : wire_.receive()) {
                 now = Clock::now();
                 advance(now);
                 accept(std::move(request), now);
@@ -63,7 +63,7 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
         }
     }
     // The record ends behind everything that was told.
-    line_.wait(microseconds(1000 - model_us(Clock::now()) % 1000 + 1), true);
+    wire_.wait(microseconds(1000 - model_us(Clock::now()) % 1000 + 1), true);
     advance(Clock::now());
 }
 
@@ -88,7 +88,7 @@ void DriveServer::fire_events(Clock::time_point now) {
     }
     if (connects_ && *connects_ <= now) {
         connects_.reset();
-        line_.connect();
+        wire_.connect();
     }
     if (thaws_ && *thaws_ <= now) {
         thaws_.reset();
@@ -100,7 +100,7 @@ void DriveServer::fire_events(Clock::time_point now) {
         }
         switch (event.kind) {
         case DriveFaults::EventKind::disconnect:
-            line_.disconnect();
+            wire_.disconnect();
             due_.clear();
             connects_ = now + from_ms(event.amount);
             break;
@@ -110,8 +110,8 @@ void DriveServer::fire_events(Clock::time_point now) {
             model_->power_cycle();
             due_.clear();
             if (!connects_) {
-                line_.disconnect();
-                line_.connect();
+                wire_.disconnect();
+                wire_.connect();
             }
             break;
         case DriveFaults::EventKind::swap_words: model_->swap_words(); break;
@@ -143,21 +143,21 @@ void DriveServer::advance(Clock::time_point now) {
 }
 
 microseconds DriveServer::line_time(std::size_t bytes) const {
-    const ListenAddress& address = line_.address();
+    const ListenAddress& address = wire_.address();
     return address.kind == ListenAddress::Kind::tcp || !address.pace
                ? microseconds(0)
                : microseconds(std::llround(static_cast<double>(bytes) * address.character_us()));
 }
 
 // A paced frame that has arrived in no time would still be on its way.
-void DriveServer::accept(DriveLine::Request request, Clock::time_point now) {
+void DriveServer::accept(DriveWire::Request request, Clock::time_point now) {
     const microseconds frame = line_time(request.bytes.size());
     if (frame.count() == 0) {
         serve(request.channel, std::move(request.bytes), now);
         return;
     }
     const auto quiet =
-        std::max(quiet_at_least, microseconds(std::llround(quiet_characters * line_.address().character_us())));
+        std::max(quiet_at_least, microseconds(std::llround(quiet_characters * wire_.address().character_us())));
     const Clock::time_point arrived = std::max(now, line_free_) + frame + quiet;
     due_.push_back({arrived, true, request.channel, std::move(request.bytes)});
 }
@@ -172,7 +172,7 @@ void DriveServer::serve(int channel, Bytes request, Clock::time_point now) {
         return;
     }
     const bool damages_request = faults.corrupt && (faults.bits & 1U) != 0 && !faults.exception;
-    if (damages_request && line_.address().kind == ListenAddress::Kind::rtu) {
+    if (damages_request && wire_.address().kind == ListenAddress::Kind::rtu) {
         return; // its CRC would be wrong
     }
     const bool damaged = damages_request && damage_block(request, faults.bits >> 1U);
@@ -213,7 +213,7 @@ void DriveServer::serve(int channel, Bytes request, Clock::time_point now) {
 
 // On a serial line another drive's answer to another master; on TCP our answer to an earlier request.
 DriveServer::Bytes DriveServer::foreign_frame(const Bytes& request) {
-    if (line_.address().kind == ListenAddress::Kind::tcp) {
+    if (wire_.address().kind == ListenAddress::Kind::tcp) {
         return sent_.front();
     }
     constexpr std::uint8_t most_unit = 247;
@@ -258,7 +258,7 @@ bool DriveServer::replace_by_stale(Bytes& reply) const {
         return false;
     }
     Bytes old = *found;
-    if (line_.address().kind == ListenAddress::Kind::tcp) {
+    if (wire_.address().kind == ListenAddress::Kind::tcp) {
         std::copy_n(reply.begin(), 2, old.begin());
     }
     reply = std::move(old);
@@ -287,7 +287,7 @@ void DriveServer::flood(Clock::time_point now) {
         character_us == 0.0
             ? flood_bytes
             : static_cast<std::size_t>(std::chrono::duration<double, std::micro>(now - since).count() / character_us);
-    line_.send_all(Bytes(count, 0x55));
+    wire_.send_all(Bytes(count, 0x55));
 }
 
 void DriveServer::deliver(Clock::time_point now) {
@@ -302,7 +302,7 @@ void DriveServer::deliver(Clock::time_point now) {
             advance(now);
             serve(due.channel, std::move(due.bytes), now);
         } else {
-            line_.send(due.channel, due.bytes);
+            wire_.send(due.channel, due.bytes);
             line_free_ = now;
         }
     }

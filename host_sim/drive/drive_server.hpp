@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host_sim/drive/drive_faults.hpp"
-#include "host_sim/drive/drive_line.hpp"
 #include "host_sim/drive/drive_record.hpp"
+#include "host_sim/drive/drive_wire.hpp"
 
 #include <csignal>
 #include <deque>
@@ -19,14 +19,14 @@ public:
     DriveServer(DriveModel& model, const ListenAddress& address, DriveFaults faults, std::uint64_t seed);
 
     /// The address, with the port that was chosen.
-    [[nodiscard]] const ListenAddress& address() const noexcept { return line_.address(); }
+    [[nodiscard]] const ListenAddress& address() const noexcept { return wire_.address(); }
     /// CLOCK_MONOTONIC at time 0 of the model. [s]
     [[nodiscard]] double start_s() const noexcept;
     /// Serves until `stop` is set. @param record  may be null; gets its rows; the caller commits it
     void run(const volatile std::sig_atomic_t& stop, DriveRecord* record);
 
 private:
-    using Clock = DriveLine::Clock;
+    using Clock = DriveWire::Clock;
     using Bytes = std::vector<std::uint8_t>;
     struct Due {
         Clock::time_point time;
@@ -39,7 +39,7 @@ private:
     [[nodiscard]] std::chrono::microseconds line_time(std::size_t bytes) const;
     void fire_events(Clock::time_point now);
     void advance(Clock::time_point now);
-    void accept(DriveLine::Request request, Clock::time_point now);
+    void accept(DriveWire::Request request, Clock::time_point now);
     void serve(int channel, Bytes request, Clock::time_point now);
     [[nodiscard]] Bytes reply_to(const Bytes& request, const ExchangeFaults& faults);
     [[nodiscard]] bool damage_block(Bytes& request, std::uint64_t bits) const;
@@ -53,7 +53,7 @@ private:
 
     DriveModel* model_;
     DriveRecord* record_ = nullptr;
-    DriveLine line_;
+    DriveWire wire_;
     DriveExchange exchange_;
     DriveFaults faults_;
     FaultDice dice_;

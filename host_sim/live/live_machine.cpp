@@ -4,6 +4,7 @@
 #include "host_sim/config/decimal_number.hpp"
 
 #include "splinefeed/base/units.hpp"
+#include "splinefeed/number/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -223,18 +224,15 @@ MachineReading LiveMachine::read() noexcept {
     const std::lock_guard lock(mutex_);
     out.executes = !out.stands && feed_->executed() < feed_->pushed();
     out.waypoint = out.executes ? static_cast<std::uint32_t>(labels_.front().moves) : 0;
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        out.position[k] = position_from_mm(known_.mm[k]);
-    }
+    const int axes = machine_->settings.axes;
+    out.position = position_from_mm(known_.mm, axes);
     out.known = known_.axes == all_axes();
     out.homing = known_.homing;
     out.alarm = known_.alarm;
     out.inputs = known_.switches.limits | (known_.switches.probe ? InputBits::probe : 0U) |
                  (known_.switches.e_stop ? InputBits::emergency_stop : 0U);
     out.touched = known_.switches.touched_mm.has_value();
-    for (const unsigned k : indices(out.touched ? machine_->settings.axes : 0)) {
-        out.touched_at[k] = position_from_mm((*known_.switches.touched_mm)[k]);
-    }
+    out.touched_at = out.touched ? position_from_mm(*known_.switches.touched_mm, axes) : PerAxis<Position>{};
     out.feed_mm_min = out.stands ? Decimal{} : Decimal{std::llround(known_.speed_mm_s * 60e9)};
     sentence_ = known_.sentence;
     out.alarm_sentence = sentence_;

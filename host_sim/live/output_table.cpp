@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/live/output_table.hpp"
 
-#include "host_sim/ports/gpio/line_outputs.hpp"
+#include "host_sim/ports/gpio/pin_outputs.hpp"
 #include "host_sim/ports/modbus/modbus_outputs.hpp"
 #include "host_sim/ports/sim/sim_target.hpp"
 #include "host_sim/ports/target_table.hpp"
@@ -18,7 +18,7 @@ std::unique_ptr<ProgramOutputs> make_outputs(const MachineDescription& machine, 
             parts.push_back(std::make_shared<SimSpindle>(*machine.spindle));
         }
     } else {
-        parts = make_line_outputs(machine);
+        parts = make_pin_outputs(machine);
         std::ranges::move(make_modbus_outputs(machine, target), std::back_inserter(parts));
     }
     return std::make_unique<ProgramOutputs>(std::move(parts));

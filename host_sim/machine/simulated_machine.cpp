@@ -4,6 +4,7 @@
 #include "host_sim/machine/segment_cubic.hpp"
 
 #include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/number/vector.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -110,21 +111,16 @@ bool SimulatedMachine::moving() const noexcept {
 }
 
 double SimulatedMachine::path_speed() const noexcept {
-    double speed_sq = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
+    return std::sqrt(sum_of(static_cast<int>(axes_), [&](unsigned k) {
         const double v = static_cast<double>(velocity_[k]) / (axis_[k].units_per_mm * seconds(duration_ticks_));
-        speed_sq += axis_[k].on_path ? v * v : 0.0;
-    }
-    return std::sqrt(speed_sq);
+        return axis_[k].on_path ? v * v : 0.0;
+    }));
 }
 
 PerAxis<double> SimulatedMachine::position_mm() const noexcept {
-    PerAxis<double> position{};
-    for (unsigned k = 0; k < axes_; ++k) {
-        // Three roundings of 2^-53: below 4e-16 of the position.
-        position[k] = static_cast<double>(position_[k]) / axis_[k].units_per_mm;
-    }
-    return position;
+    // Three roundings of 2^-53: below 4e-16 of the position.
+    return each(static_cast<int>(axes_),
+                [&](unsigned k) { return static_cast<double>(position_[k]) / axis_[k].units_per_mm; });
 }
 
 void SimulatedMachine::trace_row() noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/path_limits.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/curve_hull.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +25,8 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
 }
 
 bool PathLimits::contain(const PerAxis<double>& low, const PerAxis<double>& high, double margin) const noexcept {
-    bool all = true;
-    for (const unsigned k : indices(axes_)) {
-        all = all && low[k] - margin >= axis_[k].low && high[k] + margin <= axis_[k].high;
-    }
-    return all;
+    return for_all(axes_,
+                   [&](unsigned k) { return low[k] - margin >= axis_[k].low && high[k] + margin <= axis_[k].high; });
 }
 
 std::optional<std::string> PathLimits::violation(const CurveSegment<double>& segment) const {

@@ -3,6 +3,8 @@
 
 #include "host_sim/base/input_error.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -13,12 +15,7 @@ namespace {
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
 bool same_point(const WaypointRow& a, const WaypointRow& b) {
-    for (const unsigned k : indices(max_axes)) {
-        if (!(std::fabs(a.position[k] - b.position[k]) < same_point_mm)) {
-            return false;
-        }
-    }
-    return true;
+    return for_all(max_axes, [&](unsigned k) { return std::fabs(a.position[k] - b.position[k]) < same_point_mm; });
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "host_sim/ports/output_parts.hpp"
 #include "host_sim/program/program_action.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <atomic>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 namespace splinefeed::host {
 
-std::vector<SwitchTurn> switch_turns(const ProgramLines& lines, EventKind kind, std::int32_t number) {
+std::vector<SwitchTurn> switch_turns(const ProgramPins& lines, EventKind kind, std::int32_t number) {
     std::vector<SwitchTurn> turns;
     const bool on = kind == EventKind::mist_on || kind == EventKind::flood_on ||
                     kind == EventKind::output_on_with_motion || kind == EventKind::output_on;
@@ -20,7 +20,7 @@ std::vector<SwitchTurn> switch_turns(const ProgramLines& lines, EventKind kind, 
     return turns;
 }
 
-std::vector<SwitchTurn> safe_turns(const ProgramLines& lines) {
+std::vector<SwitchTurn> safe_turns(const ProgramPins& lines) {
     std::vector<SwitchTurn> turns;
     for (const auto* const line : {&lines.mist, &lines.flood}) {
         if (*line) {

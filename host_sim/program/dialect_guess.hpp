@@ -2,7 +2,7 @@
 // DialectGuess: whose words a program has, by its first lines.
 #pragma once
 
-#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,13 +2,13 @@
 // GcodeSettings: how a program in G-code is to be read, and for which machine.
 #pragma once
 
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 #include "host_sim/config/spindle_description.hpp"
 #include "host_sim/program/tool_file.hpp"
 
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/program_settings.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 #include <optional>
 #include <string>
@@ -42,7 +42,7 @@ struct GcodeSettings {
     bool optional_stop = false;
     bool simulated = true;                       ///< a simulated machine has a spindle, coolant, and everything else
     const SpindleDescription* spindle = nullptr; ///< of the machine; null: its file says nothing of one
-    const ProgramLines* lines = nullptr;         ///< coolant and outputs of the machine; null: it has none
+    const ProgramPins* lines = nullptr;          ///< coolant and outputs of the machine; null: it has none
     double tolerance_mm = 0.01;                  ///< of G64 without P
     int chain_quarters = 3;                      ///< of P, for the chains of G64 without Q
     double rapid_tolerance_mm = 0.1;             ///< between rapids

@@ -4,7 +4,7 @@
 #include "host_sim/base/input_stream.hpp"
 #include "host_sim/program/waypoint_reader.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/left_out_list.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 namespace splinefeed::host {
 

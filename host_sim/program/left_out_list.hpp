@@ -2,7 +2,7 @@
 // LeftOutList: what a program has that is not followed, by word, with its first line.
 #pragma once
 
-#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
 
 #include <cstdint>
 #include <map>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/line_filter.hpp"
 
-#include "splinefeed/s0_program/dialect_rules.hpp"
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/dialects/dialect_rules.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -8,7 +8,7 @@
 #include "splinefeed/base/status.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 #include <chrono>
 #include <memory>

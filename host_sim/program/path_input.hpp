@@ -53,7 +53,7 @@ struct PathMachine {
     double max_feed_mm_s = 0.0;    ///< of a program in G-code: the largest feed of its moves that are no rapids
     std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
     const SpindleDescription* spindle = nullptr; ///< null: its file says nothing of one
-    const ProgramLines* lines = nullptr;         ///< coolant and outputs; null: it has none
+    const ProgramPins* lines = nullptr;          ///< coolant and outputs; null: it has none
 };
 
 struct PointsMethod;

@@ -2,7 +2,7 @@
 // ProgramAction: what a program asks for besides motion.
 #pragma once
 
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <optional>
 #include <string>

@@ -5,7 +5,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/decimal_number.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <charconv>
 #include <cmath>

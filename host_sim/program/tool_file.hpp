@@ -2,7 +2,7 @@
 // ToolFile: the tool table of a machine, in the format of LinuxCNC's tool.tbl.
 #pragma once
 
-#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
 
 #include <map>
 #include <string>

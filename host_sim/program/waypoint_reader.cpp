@@ -7,7 +7,7 @@
 #include "host_sim/base/plain_text.hpp"
 #include "host_sim/base/trimmed_text.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <cstring>

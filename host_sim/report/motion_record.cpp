@@ -4,6 +4,8 @@
 #include "host_sim/analysis/path_strand.hpp"
 #include "host_sim/machine/segment_cubic.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -53,9 +55,7 @@ MotionRecord::MotionRecord(const MachineDescription& machine, std::uint32_t segm
 void MotionRecord::start(const PerAxis<Position>& position) {
     here_ = position;
     ThinnedPath::Point point{.keep = true};
-    for (unsigned k = 0; k < axes_; ++k) {
-        point.position[k] = to_mm(position[k]);
-    }
+    point.position = to_mm(position, axes_);
     programmed_.add(point);
 }
 
@@ -70,17 +70,11 @@ void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64
     ThinnedPath::Point point{.line = line,
                              .kind = static_cast<std::uint8_t>(rapid ? PieceKind::rapid : PieceKind::feed)};
     const PathStrand strand(here_, move, static_cast<int>(axes_));
-    PerAxis<double> before{};
-    for (unsigned k = 0; k < axes_; ++k) {
-        before[k] = to_mm(here_[k]);
-    }
+    PerAxis<double> before = to_mm(here_, axes_);
     for (int i = 1; i <= strand.parts(); ++i) {
         point.position = strand.at(static_cast<double>(i) / strand.parts());
-        double way_sq = 0.0;
-        for (unsigned k = 0; k < axes_; ++k) {
-            way_sq += (point.position[k] - before[k]) * (point.position[k] - before[k]);
-        }
-        programmed_mm_ += std::sqrt(way_sq);
+        const PerAxis<double> way = difference(point.position, before, axes_);
+        programmed_mm_ += std::sqrt(dot(way, way, axes_));
         point.length_mm = programmed_mm_;
         point.edge = i == strand.parts();
         before = point.position;
@@ -95,10 +89,7 @@ void MotionRecord::waypoint(const PerAxis<Position>& position) {
         waypoints_ = {};
         return;
     }
-    PerAxis<double>& point = waypoints_.emplace_back();
-    for (unsigned k = 0; k < axes_; ++k) {
-        point[k] = to_mm(position[k]);
-    }
+    waypoints_.push_back(to_mm(position, axes_));
 }
 
 void MotionRecord::deviates(std::uint64_t row, double mm) {
@@ -295,16 +286,11 @@ void MotionRecord::travel(const FeedSegment& segment, double begin_s, double sec
 // The machine goes on from the last stop.
 void MotionRecord::turn(const PerAxis<double>& direction) {
     open_stop_ = false;
-    double dot = 0.0;
-    double a = 0.0;
-    double b = 0.0;
-    for (unsigned k = 0; k < axes_; ++k) {
-        dot += direction[k] * direction_[k];
-        a += direction[k] * direction[k];
-        b += direction_[k] * direction_[k];
-    }
+    const double a = dot(direction, direction, axes_);
+    const double b = dot(direction_, direction_, axes_);
     Stop& stop = stops_.back();
-    const double cosine = a > 0.0 && b > 0.0 ? std::clamp(dot / std::sqrt(a * b), -1.0, 1.0) : 1.0;
+    const double cosine =
+        a > 0.0 && b > 0.0 ? std::clamp(dot(direction, direction_, axes_) / std::sqrt(a * b), -1.0, 1.0) : 1.0;
     stop.turn_deg = std::acos(cosine) * 180.0 / std::numbers::pi;
     constexpr double least_deg = 0.5;
     if (stop.why == Why::end) {

@@ -10,7 +10,7 @@
 #include "host_sim/report/thinned_path.hpp"
 #include "host_sim/report/time_strips.hpp"
 
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
 #include <array>

@@ -121,8 +121,8 @@ private:
     BackgroundWork work_; // what is measured, where nobody else looks at it meanwhile
     PathWatch watch_;
     std::unique_ptr<PlannedPath> path_;
-    PathFeeder& feeder_; // of the path
-    MoveStream& stream_; // likewise
+    PathFeeder& feeder_;
+    MoveStream& stream_;
     ProgramSteps steps_;
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;

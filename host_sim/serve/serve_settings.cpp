@@ -4,7 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/decimal_number.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 namespace splinefeed::host {
 

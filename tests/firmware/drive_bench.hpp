@@ -70,7 +70,7 @@ struct DriveBench {
     /// Ticks, each with a round of the main loop.
     void run_us(std::uint32_t us) {
         for (std::uint32_t passed = 0; passed < us; passed += drive_tick_us) {
-            steps.tick({estop, false}, [this](Lines lines) {
+            steps.tick({estop, false}, [this](Pins lines) {
                 for (unsigned k = 0; k < drive_axes; ++k) {
                     const int step = (lines.step >> k & 1U) == 0 ? 0 : (lines.up >> k & 1U) != 0 ? 1 : -1;
                     shaft[k] += step;

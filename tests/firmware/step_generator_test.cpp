@@ -74,7 +74,7 @@ struct Bench {
     int run(const Inputs& inputs = {}) {
         const std::int32_t before = pulses;
         for (unsigned i = 0; i < ticks_in_part; ++i) {
-            steps->tick(inputs, [this](firmware::Lines lines) {
+            steps->tick(inputs, [this](firmware::Pins lines) {
                 pulses += (lines.step & 1U) == 0 ? 0 : (lines.up & 1U) != 0 ? 1 : -1;
             });
         }
@@ -182,7 +182,7 @@ TEST_CASE("Step generator: an emergency stop ends all pulses with its tick", "[g
     for (unsigned at = 0; at < 40; ++at) {
         Bench bench(128);
         bench.travel(parts, 100);
-        const auto write = [&](firmware::Lines lines) {
+        const auto write = [&](firmware::Pins lines) {
             bench.pulses += static_cast<std::int32_t>(lines.step & 1U);
         };
         for (unsigned i = 0; i < at; ++i) {

@@ -30,11 +30,11 @@ std::vector<Change> shaped(const std::vector<FeedSegment>& segments) {
     DdaLoader loader(axes, tick);
     TickDda<axes> dda;
     firmware::StepShaper<axes> shaper;
-    firmware::Lines before;
+    firmware::Pins before;
     std::vector<Change> changes;
     std::int64_t at = -std::int64_t{firmware::StepShaper<axes>::delay};
     const auto show = [&](StepBits steps) {
-        const firmware::Lines lines = shaper.next(steps);
+        const firmware::Pins lines = shaper.next(steps);
         for (unsigned k = 0; k < axes; ++k) {
             if (((lines.up ^ before.up) >> k & 1U) != 0) {
                 changes.push_back({at * tick, k, Line::direction, (lines.up >> k & 1U) != 0});
@@ -121,7 +121,7 @@ TEST_CASE("Step shaper: a step and the step back within three ticks are left out
         unsigned pulses = 0;
         bool high = false;
         for (unsigned i = 0; i < 12; ++i) {
-            const firmware::Lines lines = shaper.next({i == 0 ? 1U : i == gap ? 3U : 0U});
+            const firmware::Pins lines = shaper.next({i == 0 ? 1U : i == gap ? 3U : 0U});
             pulses += (lines.step & 1U) != 0 && !high ? 1U : 0U;
             high = (lines.step & 1U) != 0;
         }

@@ -2,9 +2,9 @@
 // Any lines, in any dialect, with and without expressions: the interpreter takes or refuses each without harm, a
 // refused line changes nothing, a block ends after a bounded number of items, moves join, and stay in the machine's
 // range. So it is, too, where refused lines are obeyed, to find further errors.
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
 
 #include "fuzz/bytes.hpp"
 

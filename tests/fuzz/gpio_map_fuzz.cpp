@@ -28,9 +28,9 @@ void require_agree(const MappedInput& input, const MappedInput& other) {
     }
 }
 
-void require_sound(const LineMap& map, const MachineDescription& machine) {
+void require_sound(const PinMap& map, const MachineDescription& machine) {
     std::set<std::pair<unsigned, unsigned>> outputs;
-    const auto output = [&](LineBit line) {
+    const auto output = [&](PinBit line) {
         require(line.chip < map.chips.size() && line.bit < map.chips[line.chip].outputs.size());
         require(outputs.insert({line.chip, line.bit}).second);
     };
@@ -53,7 +53,7 @@ void require_sound(const LineMap& map, const MachineDescription& machine) {
             require_agree(input, map.inputs[other]);
         }
     }
-    for (const ChipLines& chip : map.chips) {
+    for (const ChipPins& chip : map.chips) {
         require(chip.outputs.size() <= most_lines && chip.inputs.size() <= most_lines);
     }
 }

@@ -50,7 +50,7 @@ struct Bench : TargetRig {
 TEST_CASE("the brake is released when the drives hold the axes, and engaged before they let go", "[brake]") {
     Bench bench;
     CHECK(bench.run() == hal::PortPhase::idle);
-    const SimulatedLines& lines = *bench.lines;
+    const SimulatedPins& lines = *bench.lines;
     const std::uint64_t on_ns = bench.first_ns([&](std::uint64_t levels) { return lines.enabled(levels); });
     const std::uint64_t free_ns = bench.first_ns([&](std::uint64_t levels) { return lines.released(levels); });
     const std::uint64_t step_ns = bench.first_ns([&](std::uint64_t levels) { return (levels & step_lines) != 0; });
@@ -69,9 +69,9 @@ TEST_CASE("the brake is released when the drives hold the axes, and engaged befo
 TEST_CASE("an e-stop engages the brake in the call that switches the drives off", "[brake]") {
     Bench bench;
     CHECK(bench.run(200.0, [&] { bench.lines->drive(e_stop, true); }) == hal::PortPhase::fault);
-    const SimulatedLines& lines = *bench.lines;
+    const SimulatedPins& lines = *bench.lines;
     bool was_free = false;
-    for (const SimulatedLines::Row& row : lines.rows()) {
+    for (const SimulatedPins::Row& row : lines.rows()) {
         was_free = was_free || lines.released(row.levels);
         CHECK((!was_free || lines.released(row.levels) == lines.enabled(row.levels)));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/chip_lookup.hpp"
 
-#include "splinefeed/hal/gpio/line_request.hpp"
+#include "splinefeed/hal/gpio/pin_request.hpp"
 #include "support/catch.hpp"
 
 #include <array>

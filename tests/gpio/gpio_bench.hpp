@@ -4,7 +4,7 @@
 
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_file.hpp"
-#include "simulated_lines.hpp"
+#include "simulated_pins.hpp"
 
 namespace splinefeed_test {
 

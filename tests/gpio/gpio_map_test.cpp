@@ -34,18 +34,18 @@ direction2 = 9
 } // namespace
 
 TEST_CASE("GPIO map: lines by chip, bits in the order of the machine's axes, safe levels with their polarity") {
-    const LineMap map = parse_gpio_map(good, "m.toml", two_axes(), chip);
+    const PinMap map = parse_gpio_map(good, "m.toml", two_axes(), chip);
     CHECK(map.consumer == "splinefeed");
     REQUIRE(map.chips.size() == 2);
     CHECK(map.chips[0].chip == chip);
     CHECK(map.chips[1].chip == "/dev/gpiochip1");
     const std::vector<OutputRequest>& outputs = map.chips[0].outputs;
     REQUIRE(outputs.size() == 5);
-    CHECK((outputs[0].line == LineName{"X_STEP", {}}));
-    CHECK((outputs[1].line == LineName{"X_DIR", 5}));
-    CHECK((outputs[2].line == LineName{"X2_STEP", {}}));
-    CHECK((outputs[3].line == LineName{"", 9}));
-    CHECK((outputs[4].line == LineName{"", 6}));
+    CHECK((outputs[0].line == PinName{"X_STEP", {}}));
+    CHECK((outputs[1].line == PinName{"X_DIR", 5}));
+    CHECK((outputs[2].line == PinName{"X2_STEP", {}}));
+    CHECK((outputs[3].line == PinName{"", 9}));
+    CHECK((outputs[4].line == PinName{"", 6}));
     CHECK_FALSE(outputs[0].safe_level);
     CHECK_FALSE(outputs[1].safe_level);
     CHECK_FALSE(outputs[2].safe_level);
@@ -54,13 +54,13 @@ TEST_CASE("GPIO map: lines by chip, bits in the order of the machine's axes, saf
     REQUIRE(map.chips[1].outputs.size() == 1);
     CHECK(map.chips[1].outputs[0].safe_level);
     CHECK(map.axis[0].motors == 2);
-    CHECK((map.axis[0].motor[0].step == LineBit{0, 0}));
-    CHECK((map.axis[0].motor[0].direction == LineBit{0, 1}));
-    CHECK((map.axis[0].motor[1].step == LineBit{0, 2}));
-    CHECK((map.axis[0].motor[1].direction == LineBit{0, 3}));
+    CHECK((map.axis[0].motor[0].step == PinBit{0, 0}));
+    CHECK((map.axis[0].motor[0].direction == PinBit{0, 1}));
+    CHECK((map.axis[0].motor[1].step == PinBit{0, 2}));
+    CHECK((map.axis[0].motor[1].direction == PinBit{0, 3}));
     CHECK(map.axis[1].motors == 1);
-    CHECK((map.axis[1].motor[0].step == LineBit{0, 4}));
-    CHECK((map.axis[1].motor[0].direction == LineBit{1, 0}));
+    CHECK((map.axis[1].motor[0].step == PinBit{0, 4}));
+    CHECK((map.axis[1].motor[0].direction == PinBit{1, 0}));
     CHECK(map.axis[1].motor[0].step.mask() == 16);
     CHECK_FALSE(map.enable.has_value());
     CHECK_FALSE(map.brake.has_value());
@@ -72,7 +72,7 @@ TEST_CASE("GPIO map: lines by chip, bits in the order of the machine's axes, saf
 }
 
 TEST_CASE("GPIO map: enable, inputs, homing and the thread") {
-    const LineMap map = parse_gpio_map("consumer = \"mill\"\n" + good + R"([enable]
+    const PinMap map = parse_gpio_map("consumer = \"mill\"\n" + good + R"([enable]
 line = 20
 settle_ms = 250
 active = "low"
@@ -113,30 +113,30 @@ cpu = 3
 spin_us = 0
 tolerated_late_us = 10000
 )",
-                                       "m.toml", two_axes(), chip);
+                                      "m.toml", two_axes(), chip);
     CHECK(map.consumer == "mill");
     REQUIRE(map.enable.has_value());
     CHECK_FALSE(map.enable->active_level);
     CHECK(map.enable->settle_ms == 250);
-    CHECK((map.enable->line == LineBit{0, 5}));
+    CHECK((map.enable->line == PinBit{0, 5}));
     CHECK(map.chips[0].outputs[5].safe_level);
     REQUIRE(map.brake.has_value());
     CHECK_FALSE(map.brake->released_level);
     CHECK(map.brake->release_ms == 0);
     CHECK(map.brake->engage_ms == 5000);
-    CHECK((map.brake->line == LineBit{0, 6}));
+    CHECK((map.brake->line == PinBit{0, 6}));
     CHECK(map.chips[0].outputs[6].safe_level);
     REQUIRE(map.inputs.size() == 4);
     CHECK(map.inputs[0].role == InputRole::e_stop);
     CHECK(map.inputs[0].axis == -1);
     CHECK(map.inputs[0].debounce_us == 0);
     CHECK(map.inputs[0].active_level);
-    CHECK((map.inputs[0].line == LineBit{0, 0}));
+    CHECK((map.inputs[0].line == PinBit{0, 0}));
     CHECK(map.inputs[1].role == InputRole::limit);
     CHECK(map.inputs[1].axis == 1);
     CHECK_FALSE(map.inputs[1].active_level);
     CHECK(map.inputs[1].debounce_us == 0);
-    CHECK((map.inputs[1].line == LineBit{2, 0}));
+    CHECK((map.inputs[1].line == PinBit{2, 0}));
     CHECK(map.chips[2].inputs[0].bias == Bias::pull_down);
     CHECK(map.chips[2].outputs.empty());
     CHECK(map.inputs[2].debounce_us == 1000);
@@ -159,7 +159,7 @@ tolerated_late_us = 10000
 
 TEST_CASE("GPIO map: the example is one for the example's machine") {
     const std::string examples = splinefeed::test::source_folder() + "/examples/";
-    const LineMap map =
+    const PinMap map =
         read_gpio_map(examples + "gpio_lines.toml", read_machine_file(examples + "three_axis.toml"), chip);
     CHECK(map.chips.size() == 2);
     CHECK(map.chips[0].outputs.size() == 6);
@@ -170,7 +170,7 @@ TEST_CASE("GPIO map: the example is one for the example's machine") {
 }
 
 TEST_CASE("GPIO map: a switch that is home and limit, and limits that share a line, are one line of the chip") {
-    const LineMap map = parse_gpio_map(good + R"([[input]]
+    const PinMap map = parse_gpio_map(good + R"([[input]]
 role = "home"
 axis = "x"
 line = { offset = 12, name = "ENDS" }
@@ -190,7 +190,7 @@ role = "limit"
 axis = "y"
 line = 13
 )",
-                                       "m.toml", two_axes(), chip);
+                                      "m.toml", two_axes(), chip);
     REQUIRE(map.inputs.size() == 4);
     CHECK(map.chips[0].inputs.size() == 2);
     CHECK(map.inputs[0].line == map.inputs[1].line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/ports/gpio/line_outputs.hpp"
+#include "host_sim/ports/gpio/pin_outputs.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"
@@ -38,7 +38,7 @@ struct Bench {
 
     MachineDescription machine = parse_machine(machine_text, "m.toml");
     RecordedChips chips{machine.lines};
-    std::shared_ptr<OutputPart> switches = line_outputs(machine, chips.all).front();
+    std::shared_ptr<OutputPart> switches = pin_outputs(machine, chips.all).front();
 };
 
 constexpr std::uint64_t mist = 1;

@@ -62,8 +62,8 @@ struct PortRig {
     VirtualClock clock;
     std::uint64_t began_ns = clock.now_ns();
     splinefeed::host::MachineDescription machine = two_axes();
-    splinefeed::hal::gpio::LineMap map;
-    SimulatedLines lines{map, clock};
+    splinefeed::hal::gpio::PinMap map;
+    SimulatedPins lines{map, clock};
     splinefeed::hal::gpio::StepPort port{lines.outputs(), splinefeed::host::port_settings(machine, map, &clock)};
 };
 /// One whose drives have no brake.
@@ -76,10 +76,10 @@ struct TargetRig {
     TargetRig(const splinefeed::host::MachineDescription& description, const std::string& text,
               const splinefeed::host::RunOptions& options = {})
         : machine(description) {
-        auto own_map = std::make_unique<splinefeed::hal::gpio::LineMap>(
+        auto own_map = std::make_unique<splinefeed::hal::gpio::PinMap>(
             splinefeed::host::parse_gpio_map(text, "m.toml", machine, "chip"));
         map = own_map.get();
-        auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
+        auto own_lines = std::make_unique<SimulatedPins>(*map, clock);
         lines = own_lines.get();
         target = std::make_unique<splinefeed::host::GpioTarget>(std::move(own_map), std::move(own_lines), machine,
                                                                 options, &clock);
@@ -87,8 +87,8 @@ struct TargetRig {
 
     VirtualClock clock;
     splinefeed::host::MachineDescription machine;
-    splinefeed::hal::gpio::LineMap* map = nullptr;
-    SimulatedLines* lines = nullptr;
+    splinefeed::hal::gpio::PinMap* map = nullptr;
+    SimulatedPins* lines = nullptr;
     std::unique_ptr<splinefeed::host::GpioTarget> target;
 };
 

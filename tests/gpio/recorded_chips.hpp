@@ -19,8 +19,8 @@ public:
 };
 
 struct RecordedChips {
-    explicit RecordedChips(const splinefeed::host::ProgramLines& lines) {
-        for (const splinefeed::hal::gpio::ChipLines& of : lines.chips) {
+    explicit RecordedChips(const splinefeed::host::ProgramPins& lines) {
+        for (const splinefeed::hal::gpio::ChipPins& of : lines.chips) {
             auto writer = std::make_shared<RecordingWriter>();
             writer->begin_with(splinefeed::hal::gpio::safe_levels_of(of.outputs));
             chip.push_back(writer.get());

@@ -2,7 +2,7 @@
 // A chip that records: what was set when, as a logic analyser sees it.
 #pragma once
 
-#include "splinefeed/hal/gpio/line_writer.hpp"
+#include "splinefeed/hal/gpio/pin_writer.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <cerrno>
@@ -13,7 +13,7 @@
 
 namespace splinefeed_test {
 
-class RecordingWriter final : public splinefeed::hal::gpio::LineWriter {
+class RecordingWriter final : public splinefeed::hal::gpio::PinWriter {
 public:
     struct Row {
         std::uint64_t at_ns;

@@ -2,8 +2,8 @@
 //
 // The list of the controller, on a machine whose axes are lines, and what the lines have counted at the end of each
 // case.
-#include "lines_world.hpp"
 #include "live/operated.hpp"
+#include "pins_world.hpp"
 #include "support/catch.hpp"
 #include "support/conformance_list.hpp"
 
@@ -12,7 +12,7 @@ using namespace splinefeed_test;
 
 namespace {
 
-class ListedLines final : public test::ListedMachine {
+class ListedPins final : public test::ListedMachine {
 public:
     void finish() override {
         for (int ms = 0; ms < 5000 && !machine_.live.stands(); ++ms) {
@@ -53,13 +53,13 @@ public:
     }
 
 private:
-    LinesWorld world_;
+    PinsWorld world_;
     Operated machine_{world_};
 };
 
 } // namespace
 
 TEST_CASE("a machine on lines answers as the controller's list says, and no step is lost", "[serve]") {
-    const int cases = test::run_conformance_list([] { return std::make_unique<ListedLines>(); }, &ListedLines::takes);
+    const int cases = test::run_conformance_list([] { return std::make_unique<ListedPins>(); }, &ListedPins::takes);
     CHECK(cases > 70);
 }

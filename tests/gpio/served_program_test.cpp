@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A program on a served machine of lines: how it flows.
-#include "lines_world.hpp"
 #include "live/operated.hpp"
+#include "pins_world.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace splinefeed_test;
 TEST_CASE("a program that is streamed line by line never waits, and takes as long as a run of it", "[serve]") {
     constexpr double run_ms = 6315.0; // splinefeed run circle.ngc --dialect grbl -m tests/serve/machine.toml
     constexpr int ahead = 20;         // lines that the sender has on their way
-    LinesWorld world;
+    PinsWorld world;
     Operated machine(world);
     std::vector<std::string> program{"G1 F3000\n"};
     for (int n = 0; n < 600; ++n) {

@@ -239,7 +239,7 @@ TEST_CASE("one motion after another: counts go on, and so do lines of which each
 }
 
 TEST_CASE("nothing is allocated while a motion runs") {
-    class Silent final : public LineWriter {
+    class Silent final : public PinWriter {
     public:
         [[nodiscard]] bool set(std::uint64_t /*mask*/, std::uint64_t /*levels*/) noexcept override { return true; }
     };

@@ -15,7 +15,7 @@ struct ChipAccess::Handle {};
 ChipAccess::ChipAccess(const std::string& path) : path_(path), handle_(std::make_unique<Handle>()) {}
 ChipAccess::~ChipAccess() = default;
 
-LineFacts ChipAccess::facts(unsigned offset) const {
+PinFacts ChipAccess::facts(unsigned offset) const {
     return {names()[offset], offset == 3 ? "other" : "", offset > 1};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A chip without a kernel, in place of lines_v1.cpp or lines_v2.cpp: the linker takes what is defined here first, and
+// A chip without a kernel, in place of pins_v1.cpp or pins_v2.cpp: the linker takes what is defined here first, and
 // this is all that those define. Lines 0 to 3 are A to D.
 #pragma once
 

@@ -45,7 +45,7 @@ TEST_CASE("A spindle on lines has its times, and is one of vfd and lines") {
                                             "[lines]\nchip = '/dev/gpiochip0'"),
                                        "m.toml");
     REQUIRE(machine.spindle->lines);
-    const SpindleLines& lines = *machine.spindle->lines;
+    const SpindlePins& lines = *machine.spindle->lines;
     CHECK(machine.spindle->is_controlled());
     CHECK(machine.spindle->reverses());
     CHECK(lines.spin_down_s == 2.0); // as it spins up

@@ -8,18 +8,18 @@ using namespace splinefeed::host;
 
 namespace {
 
-ProgramLines some_lines() {
-    ProgramLines lines;
+ProgramPins some_lines() {
+    ProgramPins lines;
     lines.mist = SwitchedCoil{0, 1};
-    lines.flood = SwitchedLine{};
-    lines.outputs = {{3, SwitchedCoil{0, 2}, true}, {5, SwitchedLine{}, false}};
+    lines.flood = SwitchedPin{};
+    lines.outputs = {{3, SwitchedCoil{0, 2}, true}, {5, SwitchedPin{}, false}};
     return lines;
 }
 
 } // namespace
 
 TEST_CASE("M9 turns off both kinds of coolant, and an output is turned by its number") {
-    const ProgramLines lines = some_lines();
+    const ProgramPins lines = some_lines();
     const auto mist = switch_turns(lines, EventKind::mist_on, 3);
     REQUIRE(mist.size() == 1);
     CHECK((mist[0].line == &*lines.mist && mist[0].on));
@@ -34,7 +34,7 @@ TEST_CASE("M9 turns off both kinds of coolant, and an output is turned by its nu
 }
 
 TEST_CASE("Safe is coolant off, and each output as the machine file has it") {
-    const ProgramLines lines = some_lines();
+    const ProgramPins lines = some_lines();
     const auto safe = safe_turns(lines);
     REQUIRE(safe.size() == 4);
     CHECK((!safe[0].on && !safe[1].on && safe[2].on && !safe[3].on));

@@ -36,7 +36,7 @@ public:
                             {.make =
                                  [this](auto link, const auto& timing, auto& by) {
                                      link.port = 1502 + (link.host.back() - '1'); // as the plant has its wires
-                                     return plant_.make_line()(link, timing, by);
+                                     return plant_.make_wire()(link, timing, by);
                                  },
                              .clock = &clock});
             fit(*target_);
@@ -104,7 +104,7 @@ protected:
     [[nodiscard]] virtual std::string keys() const { return {}; } ///< of an address
     [[nodiscard]] virtual std::unique_ptr<host::DriveModel> make_drive(unsigned axis) = 0;
     [[nodiscard]] virtual std::unique_ptr<host::RunTarget>
-    make_target(host::DriveTable table, const host::RunOptions& options, const host::DriveLines& lines) = 0;
+    make_target(host::DriveTable table, const host::RunOptions& options, const host::DriveWires& lines) = 0;
     virtual void trouble(const std::string& fact, unsigned axis, bool begins) = 0;
     [[nodiscard]] virtual bool is_on(unsigned axis) = 0;
 
@@ -148,7 +148,7 @@ private:
         return drive;
     }
     [[nodiscard]] std::unique_ptr<host::RunTarget> make_target(host::DriveTable table, const host::RunOptions& options,
-                                                               const host::DriveLines& lines) override {
+                                                               const host::DriveWires& lines) override {
         return std::make_unique<host::PvtTarget>(std::move(table), description(), options, lines);
     }
     void trouble(const std::string& fact, unsigned axis, bool begins) override {
@@ -197,7 +197,7 @@ private:
         return std::make_unique<host::FaultyDrive>(std::move(drive), profile_);
     }
     [[nodiscard]] std::unique_ptr<host::RunTarget> make_target(host::DriveTable table, const host::RunOptions& options,
-                                                               const host::DriveLines& lines) override {
+                                                               const host::DriveWires& lines) override {
         return std::make_unique<host::SetpointTarget>(std::move(table), description(), options, lines);
     }
     void trouble(const std::string& fact, unsigned axis, bool begins) override {

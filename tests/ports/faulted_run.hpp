@@ -4,7 +4,7 @@
 #pragma once
 
 #include "ports/phase_act.hpp"
-#include "ports/simulated_line.hpp"
+#include "ports/simulated_link.hpp"
 #include "ports/visited_cells.hpp"
 #include "splinefeed/hal/stop_sequence.hpp"
 #include "support/rounds.hpp"

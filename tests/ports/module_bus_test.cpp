@@ -29,7 +29,7 @@ struct Bench {
     std::unique_ptr<ModuleBus> bus = std::make_unique<ModuleBus>(
         LinkAddress{}, ModuleBusSettings{},
         [this](const auto& address, const auto& timing, auto& by) {
-            return std::make_unique<ModuleLine>(modules, address, timing, by);
+            return std::make_unique<ModuleLink>(modules, address, timing, by);
         },
         clock);
     std::size_t off = 0;
@@ -189,7 +189,7 @@ TEST_CASE("Modules: one that does not answer keeps the others waiting for one ti
     ModuleBus bus(
         LinkAddress{}, ModuleBusSettings{},
         [&](const auto& address, const auto& timing, auto& by) {
-            return std::make_unique<ModuleLine>(modules, address, timing, by);
+            return std::make_unique<ModuleLink>(modules, address, timing, by);
         },
         clock);
     std::vector<std::size_t> all;

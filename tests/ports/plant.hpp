@@ -2,7 +2,7 @@
 // Plant: simulated drives on simulated lines on one virtual clock, and what their shafts did.
 #pragma once
 
-#include "ports/simulated_line.hpp"
+#include "ports/simulated_link.hpp"
 #include "ports/smooth_motion.hpp"
 #include "support/virtual_clock.hpp"
 
@@ -39,10 +39,10 @@ public:
         return *wires.back();
     }
     /// A line whose address has the port 1502 + i hangs on wire i.
-    [[nodiscard]] splinefeed::hal::modbus::MakeLine make_line() {
+    [[nodiscard]] splinefeed::hal::modbus::MakeWire make_wire() {
         return [this](const auto& address, const auto& timing, auto& by) {
             auto& wire = *wires[static_cast<std::size_t>(address.port - 1502)];
-            return std::make_unique<SimulatedLine>(wire, address, timing, by);
+            return std::make_unique<SimulatedLink>(wire, address, timing, by);
         };
     }
     /// From now on the shafts are looked at.

@@ -23,7 +23,7 @@ TEST_CASE("PVT port, virtual: a drive that another program uses is refused at on
     CHECK(plant.port->known_position(0, 0) == 0);
     plant.began_us = plant.clock.now_us();
     ModbusPortSettings settings;
-    settings.make_line = plant.make_line();
+    settings.make_wire = plant.make_wire();
     settings.clock = &plant.clock;
     PortFailure second;
     std::uint64_t took_us = 0;

@@ -57,7 +57,7 @@ public:
     }
 
     void make(splinefeed::hal::modbus::ModbusPortSettings settings = {}) {
-        settings.make_line = make_line();
+        settings.make_wire = make_wire();
         settings.clock = &clock;
         first_sequence = settings.first_sequence;
         port.emplace(wirings, settings);

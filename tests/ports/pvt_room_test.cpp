@@ -32,7 +32,7 @@ TEST_CASE("PVT port, virtual: rings beyond its queue and segments of 0.1 ms: a g
 
 TEST_CASE("PVT client: a segment without room is not taken") {
     PvtPlant plant({.axes = {1}});
-    SimulatedLine line(*plant.wires[0], plant.wirings[0].link, {}, plant.clock);
+    SimulatedLink line(*plant.wires[0], plant.wirings[0].link, {}, plant.clock);
     PvtClient client(line, 1);
     for (std::size_t i = 0; i < PvtClient::queue_capacity; ++i) {
         CHECK(client.push({.duration_ticks = static_cast<std::uint32_t>(i)}));

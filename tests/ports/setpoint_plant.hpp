@@ -74,7 +74,7 @@ public:
     }
 
     void make(splinefeed::hal::modbus::SetpointPortSettings settings = {}) {
-        settings.make_line = make_line();
+        settings.make_wire = make_wire();
         settings.clock = &clock;
         port.emplace(wirings, settings);
     }

@@ -18,7 +18,7 @@ struct SimulatedModule {
 };
 
 /// A line with modules by unit, which outlive it.
-class ModuleLine final : public splinefeed::hal::modbus::ModbusLine {
+class ModuleLink final : public splinefeed::hal::modbus::ModbusWire {
 public:
     using LinkAddress = splinefeed::hal::modbus::LinkAddress;
     using LinkAnswer = splinefeed::hal::modbus::LinkAnswer;
@@ -26,7 +26,7 @@ public:
     using LinkTiming = splinefeed::hal::modbus::LinkTiming;
     using BitTable = splinefeed::hal::modbus::BitTable;
 
-    ModuleLine(std::map<int, SimulatedModule>& modules, const LinkAddress& address, const LinkTiming& timing,
+    ModuleLink(std::map<int, SimulatedModule>& modules, const LinkAddress& address, const LinkTiming& timing,
                splinefeed::hal::Clock& clock)
         : modules_(modules), address_(address), timing_(timing), clock_(clock) {}
 

@@ -45,7 +45,7 @@ struct Bench {
         auto model = std::make_unique<Notebook>();
         vfd = model.get();
         plant.add(std::move(model), 1, 0.0, wire);
-        client.emplace(VfdWiring{{.port = 1502, .unit = 1}, find_profile(profile)}, plant.make_line(), plant.clock);
+        client.emplace(VfdWiring{{.port = 1502, .unit = 1}, find_profile(profile)}, plant.make_wire(), plant.clock);
     }
 
     Plant plant;

@@ -29,7 +29,7 @@ struct Bench {
         plant.add(std::move(model), 1, 0.0, wire);
         spindle =
             std::make_unique<VfdSpindle>(VfdWiring{{.wire = kind, .port = 1502, .unit = 1}, find_profile(profile)},
-                                         settings, plant.make_line(), plant.clock);
+                                         settings, plant.make_wire(), plant.clock);
     }
 
     /// Opened, and at this speed.
@@ -318,8 +318,8 @@ TEST_CASE("Spindle: an order that nobody confirms is trouble, though the spindle
 }
 
 TEST_CASE("Spindle: answers that are late, break off, or are others' do not end a run on a serial line", "[spindle]") {
-    for (const LineFaults& faults : {LineFaults{.late = 0.1, .late_us = 300'000}, LineFaults{.broken = 0.03},
-                                     LineFaults{.foreign = 0.03}, LineFaults{.lost_answer = 0.03}}) {
+    for (const WireFaults& faults : {WireFaults{.late = 0.1, .late_us = 300'000}, WireFaults{.broken = 0.03},
+                                     WireFaults{.foreign = 0.03}, WireFaults{.lost_answer = 0.03}}) {
         Bench bench("vfd-gs2", {}, Wire::rtu);
         bench.turn(200.0);
         bench.wire.faults = faults;

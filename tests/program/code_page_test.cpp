@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // docs/reference/gcode.md has each word of the code table with its dialects, and no other.
-#include "splinefeed/s0_program/code_table.hpp"
+#include "splinefeed/s0_program/dialects/code_table.hpp"
 
 #include "support/catch.hpp"
 #include "support/places.hpp"

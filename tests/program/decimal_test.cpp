@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s0_program/decimal.hpp"
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 #include "support/catch.hpp"
 #include "support/rounds.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each dialect takes beside its words, rule by rule: docs/reference/gcode.md names the controllers' sources.
-#include "splinefeed/s0_program/dialect_rules.hpp"
+#include "splinefeed/s0_program/dialects/dialect_rules.hpp"
 
 #include "support/gcode.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s0_program/elementary.hpp"
+#include "splinefeed/s0_program/text/elementary.hpp"
 
 #include "support/catch.hpp"
 #include "support/rounds.hpp"

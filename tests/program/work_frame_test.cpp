@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s0_program/work_frame.hpp"
+#include "splinefeed/s0_program/words/work_frame.hpp"
 
 #include "support/gcode.hpp"
 #include "support/rounds.hpp"

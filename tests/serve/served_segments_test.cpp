@@ -74,9 +74,9 @@ std::vector<FeedSegment> served(const RunMachine& machine, const std::string& pr
         const BlockStatus status = motion.push(line, ++number);
         CAPTURE(line, describe(status.error));
         REQUIRE(status.ok());
-        for (LineProgress progress = motion.pass_on(); progress != LineProgress::done; progress = motion.pass_on()) {
-            take(progress == LineProgress::waits ? Supply::late : Supply::flows);
-            if (progress == LineProgress::waits) {
+        for (BlockProgress progress = motion.pass_on(); progress != BlockProgress::done; progress = motion.pass_on()) {
+            take(progress == BlockProgress::waits ? Supply::late : Supply::flows);
+            if (progress == BlockProgress::waits) {
                 REQUIRE(motion.exhausted());
                 motion.carried_out();
             }

@@ -2,9 +2,9 @@
 // Runs G-code through an interpreter, for tests.
 #pragma once
 
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
 
 #include "support/catch.hpp"
 

@@ -11,8 +11,8 @@
 #include "splinefeed/controller/controller.hpp"
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/move_stream/scalar_stream.hpp"
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
 
 #include <cmath>
 #include <deque>

@@ -2,7 +2,7 @@
 //
 // The commands that speak to drives, from the command line: link, and run with --target.
 #include "drive/drive_process.hpp"
-#include "host_sim/drive/drive_line.hpp"
+#include "host_sim/drive/drive_wire.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

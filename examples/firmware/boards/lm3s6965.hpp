@@ -154,7 +154,7 @@ inline bool watchdog_bit() {
     return bit;
 }
 
-inline void write_lines(firmware::Lines lines) {
+inline void write_lines(firmware::Pins lines) {
     pins(PORT_D, direction_pins) = lines.up << 4;
     pins(PORT_D, step_pins) = lines.step;
 }

@@ -129,7 +129,7 @@ inline bool watchdog_bit() {
 }
 
 /// Read and written in the interrupt: nothing comes between. The main loop sets the enable line by OUTSET.
-inline void write_lines(firmware::Lines lines) {
+inline void write_lines(firmware::Pins lines) {
     reg(GPIO_OUT) = (reg(GPIO_OUT) & ~line_pins) | lines.step << step_shift | lines.up << direction_shift;
 }
 inline void enable_drives(bool on) {

@@ -141,7 +141,7 @@ inline bool watchdog_bit() {
 }
 
 /// All at once: a direction changes a tick before a pulse begins.
-inline void write_lines(firmware::Lines lines) {
+inline void write_lines(firmware::Pins lines) {
     const std::uint32_t high = lines.up << 4 | lines.step;
     reg(GPIOC + BSRR) = high | ((step_pins | direction_pins) & ~high) << 16;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reference firmware: a machine that senders operate, by the protocol of grbl. docs/how-to/port_to_a_board.md
 //
-//   sender ── UART ── ByteLine ── Controller, LineMotion ── StepperMachine ── ring of parts ── StepGenerator ── pins
+//   sender ── UART ── ByteWire ── Controller, LineMotion ── StepperMachine ── ring of parts ── StepGenerator ── pins
 //                     (tick)      └────────────── main loop ─────────────┘                       (tick)
-#include "controller/byte_line.hpp"
+#include "controller/byte_wire.hpp"
 #include "controller/operator_settings.hpp"
 #include "controller/stepper_machine.hpp"
 #include "startup.hpp"
@@ -13,7 +13,7 @@
 #include "splinefeed/controller/controller.hpp"
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/move_stream/scalar_stream.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 
 namespace firmware {
 
@@ -25,7 +25,7 @@ using splinefeed::Pull;
 // Built in main: their bytes start as zeros, and no constructor runs before main.
 splinefeed::Slot<std::array<MotionPart, board::parts + 1>> parts;
 splinefeed::Slot<Steps> steps;
-splinefeed::Slot<ByteLine> line;
+splinefeed::Slot<ByteWire> wire;
 splinefeed::Slot<StepperMachine> stepper;
 splinefeed::Slot<std::array<splinefeed::PlannedCell<Real>, board::window>> window;
 splinefeed::Slot<splinefeed::AccelerationPlanner<Real>> planner;
@@ -74,21 +74,21 @@ private:
 bool exchange(std::uint32_t now_ms) noexcept {
     std::array<char, 32> bytes{};
     bool some = false;
-    while (const std::size_t count = line->take(bytes)) {
+    while (const std::size_t count = wire->take(bytes)) {
         controller->receive({bytes.data(), count}, now_ms);
         some = true;
     }
-    const std::size_t room = line->room_to_send();
+    const std::size_t room = wire->room_to_send();
     const std::size_t count =
         controller->take_answers(std::span(bytes).first(room < bytes.size() ? room : bytes.size()));
-    line->send(std::span(bytes).first(count));
+    wire->send(std::span(bytes).first(count));
     return some || count > 0;
 }
 
 /// A round of the main loop; returns whether another one has something to do at once.
 bool work(std::uint32_t now_ms) noexcept {
     // In this order: what a reset has stopped is not seen before the reset itself.
-    stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, line->bytes_lost());
+    stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, wire->bytes_lost());
     const bool talks = exchange(now_ms);
     if (!stepper->has_room()) {
         controller->execute(now_ms);
@@ -109,8 +109,8 @@ void on_tick() {
     estop.store(inputs.estop, std::memory_order_relaxed);
     limit.store(inputs.limit, std::memory_order_relaxed);
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
-    if (line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
+    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
+    if (wire->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
         !steps->stands()) {
         steps->order(Stop::halted); // the controller will ask for the same
     }
@@ -122,7 +122,7 @@ int main() {
     using namespace firmware;
     board::start();
     Steps& generator = steps.build(parts.build(), lookahead);
-    line.build();
+    wire.build();
     const bool by_watchdog = board::watchdog_bit(); // in motion, as a rule
     stepper.build(generator, !by_watchdog);
     stream.build(*limits, planner.build(window.build()), path_rules,
@@ -131,7 +131,7 @@ int main() {
     controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
     board::start_timer();
     board::start_watchdog();
-    line->send(by_watchdog
+    wire->send(by_watchdog
                    ? std::string_view("[MSG:The watchdog has reset the board: where the axes stand is lost]\r\n")
                    : std::string_view("[MSG:The board has started: where the axes stand counts as 0]\r\n"));
     controller->connect();
@@ -140,7 +140,7 @@ int main() {
         const std::uint32_t now_ms = clock.look();
         bool idle = !work(now_ms);
         while (idle) { // until the next millisecond, or the next byte
-            idle = clock.look() == now_ms && !line->has_come();
+            idle = clock.look() == now_ms && !wire->has_come();
         }
     }
 }

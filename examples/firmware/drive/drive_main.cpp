@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The board as a drive: a Modbus RTU slave with the map splinefeed-pvt. docs/how-to/make_a_modbus_drive.md
 //
-//   host ── UART ── RtuLine ── PvtRegisters ── PvtDrive ── slots ── StepGenerator ── pins
+//   host ── UART ── RtuWire ── PvtRegisters ── PvtDrive ── slots ── StepGenerator ── pins
 //                   (tick)     └──── main loop ───┘                  (tick)
 #include "drive/pvt_drive.hpp"
-#include "drive/rtu_line.hpp"
+#include "drive/rtu_wire.hpp"
 #include "startup.hpp"
 
 #include "splinefeed/base/slot.hpp"
@@ -19,7 +19,7 @@ constexpr RtuTiming timing{.silence = 1750 / board::tick_us + 1, .patience = 20'
 splinefeed::Slot<std::array<MotionPart, slots_ahead + 1>> parts;
 splinefeed::Slot<std::array<PvtSegment, drive_ring>> ring;
 splinefeed::Slot<DriveSteps> steps;
-splinefeed::Slot<RtuLine> line;
+splinefeed::Slot<RtuWire> line;
 splinefeed::Slot<PvtDrive> drive;
 splinefeed::Slot<PvtRegisters> registers;
 std::atomic<bool> limit; // pressed, at the last tick
@@ -31,7 +31,7 @@ void on_tick() {
     limit.store(inputs.limit, std::memory_order_relaxed);
     inputs.limit = false; // the drive stops its axes itself
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 
@@ -41,7 +41,7 @@ int main() {
     using namespace firmware;
     board::start();
     DriveSteps& generator = steps.build(parts.build(), no_lookahead);
-    RtuLine& wire = line.build(drive_unit, timing);
+    RtuWire& wire = line.build(drive_unit, timing);
     PvtDrive& motion = drive.build(generator, ring.build());
     PvtRegisters& map = registers.build(motion, boot_number());
     board::start_timer();

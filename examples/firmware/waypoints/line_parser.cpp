@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "waypoints/line_parser.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 namespace firmware {
 

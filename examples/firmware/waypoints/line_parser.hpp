@@ -4,7 +4,7 @@
 
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/text/decimal.hpp"
 #include "splinefeed/s1_curve/waypoint.hpp"
 
 #include <string_view>

@@ -21,7 +21,7 @@ splinefeed::Slot<Motion> motion;
 void on_tick() {
     const Inputs inputs = begin_tick();
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     serial->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 

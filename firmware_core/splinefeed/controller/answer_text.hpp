@@ -2,7 +2,7 @@
 // AnswerText: what the controller says, until its transport takes it.
 #pragma once
 
-#include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/text/decimal.hpp"
 
 #include <cstddef>
 #include <span>

@@ -5,7 +5,7 @@
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/controller/alarm.hpp"
 #include "splinefeed/number/position.hpp"
-#include "splinefeed/s0_program/output_list.hpp"
+#include "splinefeed/s0_program/words/output_list.hpp"
 
 namespace splinefeed {
 

@@ -131,7 +131,7 @@ private:
     // controller_motion.cpp
     [[nodiscard]] bool step() noexcept;
     [[nodiscard]] bool go_on() noexcept;
-    [[nodiscard]] bool go_on(LineProgress progress) noexcept;
+    [[nodiscard]] bool go_on(BlockProgress progress) noexcept;
     [[nodiscard]] bool carry_out() noexcept;
     void carry_out(const ProgramEvent& event) noexcept;
     void end_task() noexcept;

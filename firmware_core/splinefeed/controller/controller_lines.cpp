@@ -2,8 +2,8 @@
 // Controller: lines.
 #include "splinefeed/controller/controller.hpp"
 
-#include "splinefeed/s0_program/axis_letters.hpp"
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/words/axis_letters.hpp"
 
 namespace splinefeed {
 

@@ -117,7 +117,7 @@ bool Controller::step() noexcept {
     if (lines_.lines() == 0 || lines_left_ == 0 || waits || waits_for_step()) {
         return false;
     }
-    if (motion_->pass_on() == LineProgress::full) { // of a curve that a pause of the input has ended
+    if (motion_->pass_on() == BlockProgress::full) { // of a curve that a pause of the input has ended
         return false;
     }
     --lines_left_;
@@ -167,12 +167,12 @@ bool Controller::go_on() noexcept {
     return true;
 }
 
-bool Controller::go_on(LineProgress progress) noexcept {
-    if (progress == LineProgress::done) {
+bool Controller::go_on(BlockProgress progress) noexcept {
+    if (progress == BlockProgress::done) {
         end_task();
     }
-    if (progress != LineProgress::waits) {
-        return progress == LineProgress::done;
+    if (progress != BlockProgress::waits) {
+        return progress == BlockProgress::done;
     }
     if (motion_->waiting().needs_rest()) {
         reading_ = machine_->read();

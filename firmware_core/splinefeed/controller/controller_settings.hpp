@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/base/work_budget.hpp"
-#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
 
 namespace splinefeed {

@@ -2,7 +2,7 @@
 // LineError: the numbers by which lines are refused.
 #pragma once
 
-#include "splinefeed/s0_program/program_errors.hpp"
+#include "splinefeed/s0_program/text/program_errors.hpp"
 
 #include <cstdint>
 

@@ -74,39 +74,39 @@ bool LineMotion::leaves_travel(const PerAxis<Position>& place) const noexcept {
     return false;
 }
 
-LineProgress LineMotion::pass_move() noexcept {
+BlockProgress LineMotion::pass_move() noexcept {
     const bool leaves = item_.element.to != stream_->end() && leaves_travel(item_.element.to);
     if ((item_.stops_before || leaves) && !stream_->rest()) {
-        return LineProgress::full;
+        return BlockProgress::full;
     }
     if (leaves) {
         refused_ = true;
-        return LineProgress::done;
+        return BlockProgress::done;
     }
     const Result<bool> pushed = stream_->push(element_of_item());
     if (!pushed.has_value()) {
         refused_ = pushed.error() != Error::no_room;
-        return refused_ ? LineProgress::done : LineProgress::full;
+        return refused_ ? BlockProgress::done : BlockProgress::full;
     }
     if (*pushed) {
         line_numbers_.add(stream_->moves() - 1U, item_.line);
     }
-    return LineProgress::done;
+    return BlockProgress::done;
 }
 
-// item_.
-LineProgress LineMotion::pass_item() noexcept {
+// Passes on item_.
+BlockProgress LineMotion::pass_item() noexcept {
     if (left_travel()) { // behind a move that the path does not take, or give
-        return LineProgress::done;
+        return BlockProgress::done;
     }
     const bool at_once = is_due_at_once();
     if (at_once || needs_rest()) {
         if (!at_once && !stream_->stop()) {
-            return LineProgress::full;
+            return BlockProgress::full;
         }
         waiting_ = {item_.kind, item_.move, item_.probe, item_.home_axes, item_.dwell_s, item_.event};
         waits_ = true;
-        return LineProgress::waits;
+        return BlockProgress::waits;
     }
     if (item_.kind == ItemKind::move) {
         return pass_move();
@@ -115,23 +115,23 @@ LineProgress LineMotion::pass_item() noexcept {
         if (events_[0].behind == stream_->moves()) { // all behind one move: it ends at rest, and they happen
             stream_->rest();
         }
-        return LineProgress::full;
+        return BlockProgress::full;
     }
     events_[event_count_++] = {item_.event, stream_->moves()};
-    return LineProgress::done;
+    return BlockProgress::done;
 }
 
-LineProgress LineMotion::pass_on() noexcept {
+BlockProgress LineMotion::pass_on() noexcept {
     for (;;) {
         if (waits_) {
-            return LineProgress::waits;
+            return BlockProgress::waits;
         }
         if (!item_pending_ && interpreter_.next(item_) != Pull::item) {
-            return LineProgress::done;
+            return BlockProgress::done;
         }
-        const LineProgress progress = pass_item();
-        item_pending_ = progress == LineProgress::full;
-        if (progress != LineProgress::done) {
+        const BlockProgress progress = pass_item();
+        item_pending_ = progress == BlockProgress::full;
+        if (progress != BlockProgress::done) {
             return progress;
         }
     }
@@ -181,11 +181,11 @@ void LineMotion::cut(PathElement<ProgramScalar>& element) const noexcept {
     }
 }
 
-LineProgress LineMotion::pass_jog() noexcept {
+BlockProgress LineMotion::pass_jog() noexcept {
     for (;;) {
         if (!item_pending_) {
             if (interpreter_.next(item_) != Pull::item) {
-                return LineProgress::done;
+                return BlockProgress::done;
             }
             if (item_.kind != ItemKind::move) {
                 continue;
@@ -197,8 +197,8 @@ LineProgress LineMotion::pass_jog() noexcept {
                 interpreter_.start(item_.element.to);
             }
         }
-        const LineProgress progress = pass_move();
-        item_pending_ = progress == LineProgress::full;
+        const BlockProgress progress = pass_move();
+        item_pending_ = progress == BlockProgress::full;
         if (item_pending_) {
             return progress;
         }

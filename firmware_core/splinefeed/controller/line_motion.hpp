@@ -2,8 +2,8 @@
 // LineMotion: the lines of a controller into a motion without end.
 #pragma once
 
+#include "splinefeed/controller/block_conditions.hpp"
 #include "splinefeed/controller/controller_settings.hpp"
-#include "splinefeed/controller/line_conditions.hpp"
 #include "splinefeed/controller/line_numbers.hpp"
 #include "splinefeed/move_stream/move_stream.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
@@ -11,7 +11,7 @@
 namespace splinefeed {
 
 /// What became of the items of a line.
-enum class LineProgress : std::uint8_t {
+enum class BlockProgress : std::uint8_t {
     done,  ///< all of them are passed on
     full,  ///< the path has no room: take segments first
     waits, ///< the first one is for the controller: waiting() says what it is, and whether the machine has to stand
@@ -39,7 +39,7 @@ public:
                WordEvaluator* values = nullptr) noexcept
         : settings_(&settings), stream_(&stream), values_(values), interpreter_(settings.program, values, points) {}
 
-    /// The next line; then pass_on(). Errors: BlockInterpreter::push(), LineConditions::take().
+    /// The next line; then pass_on(). Errors: BlockInterpreter::push(), BlockConditions::take().
     BlockStatus push(std::string_view text, std::uint32_t line) noexcept;
     /// Forgets conditions that are open: a program begins.
     void begin_program() noexcept { conditions_.clear(); }
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] MoveStream& stream() noexcept { return *stream_; }
 
     /// Passes the items of the line on.
-    LineProgress pass_on() noexcept;
+    BlockProgress pass_on() noexcept;
     /// The same where nothing shall move.
     void leave_out() noexcept;
     /// @pre pass_on() has said `waits`
@@ -58,7 +58,7 @@ public:
     /// Its move begins. @pre it is a probe move
     void begin_waiting() noexcept;
     /// Passes a jog on, cut where it would leave the travel. @pre push_jog() was ok
-    LineProgress pass_jog() noexcept;
+    BlockProgress pass_jog() noexcept;
     /// The oldest event whose place the motion has come to. false: there is none
     bool take_event(ProgramEvent& out) noexcept;
 
@@ -89,8 +89,8 @@ private:
     void forget() noexcept;
     [[nodiscard]] bool needs_rest() const noexcept;
     [[nodiscard]] bool is_due_at_once() const noexcept;
-    LineProgress pass_item() noexcept;
-    LineProgress pass_move() noexcept;
+    BlockProgress pass_item() noexcept;
+    BlockProgress pass_move() noexcept;
     [[nodiscard]] PathElement<ProgramScalar> element_of_item() const noexcept;
     void let_go() noexcept;
     [[nodiscard]] bool leaves_travel(const PerAxis<Position>& place) const noexcept;
@@ -99,7 +99,7 @@ private:
     const ControllerSettings* settings_;
     MoveStream* stream_;
     WordEvaluator* values_;
-    LineConditions conditions_;
+    BlockConditions conditions_;
     Interpreter<ProgramScalar> interpreter_;
     ProgramItem<ProgramScalar> item_;
     LineNumbers line_numbers_; // of the moves in the path

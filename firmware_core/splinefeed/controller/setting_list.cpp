@@ -2,7 +2,7 @@
 #include "splinefeed/controller/setting_list.hpp"
 
 #include "splinefeed/number/wide.hpp"
-#include "splinefeed/s0_program/axis_letters.hpp"
+#include "splinefeed/s0_program/words/axis_letters.hpp"
 
 #include <bit>
 

@@ -4,7 +4,7 @@
 
 #include "splinefeed/controller/controlled_machine.hpp"
 #include "splinefeed/controller/controller_settings.hpp"
-#include "splinefeed/s0_program/modal_state.hpp"
+#include "splinefeed/s0_program/words/modal_state.hpp"
 
 namespace splinefeed {
 

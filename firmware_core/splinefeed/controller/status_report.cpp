@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/controller/status_report.hpp"
 
-#include "splinefeed/s0_program/axis_letters.hpp"
+#include "splinefeed/s0_program/words/axis_letters.hpp"
 
 namespace splinefeed {
 

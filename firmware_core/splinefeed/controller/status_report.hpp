@@ -9,7 +9,7 @@
 #include "splinefeed/controller/overrides.hpp"
 #include "splinefeed/controller/setting_list.hpp"
 #include "splinefeed/controller/spindle_orders.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 namespace splinefeed {
 

@@ -38,7 +38,7 @@ Status ScalarStream<S>::begin_path() noexcept {
         filter_->begin(*path_);
     }
     moves_ = reached_ = 0;
-    held_.stop_at_end = holds_ = stops_ = false;
+    kept_.stop_at_end = keeps_ = stops_ = false;
     exhausted_ = at_rest_ = true;
     return path_->start(end_);
 }
@@ -73,12 +73,12 @@ void ScalarStream<S>::restart() noexcept {
 template <Scalar S>
 bool ScalarStream<S>::release(bool stops) noexcept {
     const bool lost = has_failed(); // the path gives nothing more, so it may never have room
-    if (!holds_ || (!lost && !path_->has_room())) {
-        return !holds_;
+    if (!keeps_ || (!lost && !path_->has_room())) {
+        return !keeps_;
     }
-    holds_ = false;
-    held_.stop_at_end = held_.stop_at_end || stops;
-    const Status status = lost ? Status{} : path_->push(held_);
+    keeps_ = false;
+    kept_.stop_at_end = kept_.stop_at_end || stops;
+    const Status status = lost ? Status{} : path_->push(kept_);
     SPLINEFEED_ASSERT(status.ok()); // take() has measured it
     static_cast<void>(status);
     return true;
@@ -91,16 +91,16 @@ Result<bool> ScalarStream<S>::take(const PathElement<S>& move) noexcept {
         return length.error();
     }
     if (!(*length > S{})) {
-        held_.stop_at_end = held_.stop_at_end || (holds_ && move.stop_at_end);
+        kept_.stop_at_end = kept_.stop_at_end || (keeps_ && move.stop_at_end);
         return false;
     }
     if (stops_ || !release(false)) {
         return Error::no_room;
     }
-    held_ = move;
+    kept_ = move;
     end_ = move.to;
     ++moves_;
-    holds_ = true;
+    keeps_ = true;
     exhausted_ = false;
     return true;
 }

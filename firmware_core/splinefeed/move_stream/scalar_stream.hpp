@@ -51,10 +51,10 @@ public:
         return moves_;
     }
     [[nodiscard]] bool keeps_back() const noexcept override {
-        return holds_;
+        return keeps_;
     }
     [[nodiscard]] bool closed() const noexcept override {
-        return !holds_ && held_.stop_at_end;
+        return !keeps_ && kept_.stop_at_end;
     }
     [[nodiscard]] const PerAxis<Position>& end() const noexcept override {
         return end_;
@@ -134,12 +134,12 @@ private:
     PathRules<S> rules_{};
     Slot<TolerancePath<S>> path_;
     Trajectory<S> trajectory_;
-    PathElement<S> held_;       // the newest move
+    PathElement<S> kept_;       // the newest move
     PerAxis<Position> place_{}; // where the motion began
     PerAxis<Position> end_{};   // of the newest move
     std::uint32_t moves_ = 0;
     std::uint32_t reached_ = 0; // the move that the last segment belongs to
-    bool holds_ = false;
+    bool keeps_ = false;
     bool stops_ = false; // at the end of the moves so far
     bool moved_ = false; // a segment was delivered since place()
     bool at_rest_ = true;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
-#include "splinefeed/s0_program/adapt_words.hpp"
-#include "splinefeed/s0_program/decimal_text.hpp"
-#include "splinefeed/s0_program/polar_words.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/words/adapt_words.hpp"
+#include "splinefeed/s0_program/words/polar_words.hpp"
 
 namespace splinefeed {
 

@@ -2,16 +2,16 @@
 // BlockInterpreter: the part of the interpreter that does not depend on the scalar: modes, offsets, what a block means.
 #pragma once
 
-#include "splinefeed/s0_program/block_reader.hpp"
-#include "splinefeed/s0_program/canned_cycle.hpp"
-#include "splinefeed/s0_program/cutter_path.hpp"
-#include "splinefeed/s0_program/nurbs_curve.hpp"
-#include "splinefeed/s0_program/output_list.hpp"
-#include "splinefeed/s0_program/program_arc.hpp"
-#include "splinefeed/s0_program/program_step.hpp"
-#include "splinefeed/s0_program/surface_path.hpp"
-#include "splinefeed/s0_program/thread_cycle.hpp"
-#include "splinefeed/s0_program/word_use.hpp"
+#include "splinefeed/s0_program/cycles/canned_cycle.hpp"
+#include "splinefeed/s0_program/cycles/cutter_path.hpp"
+#include "splinefeed/s0_program/cycles/nurbs_curve.hpp"
+#include "splinefeed/s0_program/cycles/program_arc.hpp"
+#include "splinefeed/s0_program/cycles/surface_path.hpp"
+#include "splinefeed/s0_program/cycles/thread_cycle.hpp"
+#include "splinefeed/s0_program/words/block_reader.hpp"
+#include "splinefeed/s0_program/words/output_list.hpp"
+#include "splinefeed/s0_program/words/program_step.hpp"
+#include "splinefeed/s0_program/words/word_use.hpp"
 
 #include <variant>
 

@@ -2,7 +2,7 @@
 // BlockInterpreter: the items of an executed block, in the order of execution.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 namespace splinefeed {
 

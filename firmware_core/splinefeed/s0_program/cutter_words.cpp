@@ -4,7 +4,7 @@
 // A contour is compensated in machine coordinates, which do not change while it lasts.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 namespace splinefeed {
 

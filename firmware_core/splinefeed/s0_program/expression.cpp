@@ -4,10 +4,10 @@
 // AND OR XOR; the language of the RS274/NGC report with LinuxCNC's comparisons.
 #include "splinefeed/s0_program/expression.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
-#include "splinefeed/s0_program/elementary.hpp"
-#include "splinefeed/s0_program/operation.hpp"
 #include "splinefeed/s0_program/system_parameters.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/text/elementary.hpp"
+#include "splinefeed/s0_program/text/operation.hpp"
 
 namespace splinefeed {
 

@@ -2,7 +2,7 @@
 // Expression: parameters, operators and functions of RS274/NGC.
 #pragma once
 
-#include "splinefeed/s0_program/word_evaluator.hpp"
+#include "splinefeed/s0_program/text/word_evaluator.hpp"
 
 #include <array>
 

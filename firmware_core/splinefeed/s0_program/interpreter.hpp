@@ -3,9 +3,9 @@
 #pragma once
 
 #include "splinefeed/s0_program/block_interpreter.hpp"
-#include "splinefeed/s0_program/point_curve.hpp"
-#include "splinefeed/s0_program/program_item.hpp"
-#include "splinefeed/s0_program/rational_pieces.hpp"
+#include "splinefeed/s0_program/cycles/point_curve.hpp"
+#include "splinefeed/s0_program/cycles/rational_pieces.hpp"
+#include "splinefeed/s0_program/words/program_item.hpp"
 
 namespace splinefeed {
 

@@ -2,7 +2,7 @@
 // BlockInterpreter: the words that move coordinate systems, and the reference positions.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 namespace splinefeed {
 

@@ -2,7 +2,7 @@
 // BlockInterpreter: G5, G5.1, G5.2, G5.3 and G5.5.
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
-#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
 
 #include <algorithm>
 

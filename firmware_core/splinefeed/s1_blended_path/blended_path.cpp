@@ -60,10 +60,8 @@ void halve(PerAxis<PerDegree<S>>& points, PerAxis<PerDegree<S>>& rest, int degre
 
 template <Scalar S>
 Status BlendedPath<S>::start(const PerAxis<Position>& position) noexcept {
-    for (const unsigned k : indices(axes_)) {
-        if (position[k].raw > farthest_raw || position[k].raw < -farthest_raw) {
-            return Error::position_out_of_range;
-        }
+    if (for_any(axes_, [&](unsigned k) { return position[k].raw > farthest_raw || position[k].raw < -farthest_raw; })) {
+        return Error::position_out_of_range;
     }
     last_ = here_ = position;
     started_ = true;
@@ -73,10 +71,9 @@ Status BlendedPath<S>::start(const PerAxis<Position>& position) noexcept {
 template <Scalar S>
 Status BlendedPath<S>::measure(const PerAxis<Position>& from, const PathElement<S>& element, int axes,
                                PathMove<S>& out) noexcept {
-    for (const unsigned k : indices(axes)) {
-        if (element.to[k].raw > farthest_raw || element.to[k].raw < -farthest_raw) {
-            return Error::position_out_of_range;
-        }
+    const PerAxis<Position>& to = element.to;
+    if (for_any(axes, [&](unsigned k) { return to[k].raw > farthest_raw || to[k].raw < -farthest_raw; })) {
+        return Error::position_out_of_range;
     }
     if (!(element.tolerance_mm >= S{} && element.tolerance_mm <= literal<S>(most_tolerance_mm)) ||
         !(element.chain_tolerance_mm >= S{})) {
@@ -112,10 +109,7 @@ Status BlendedPath<S>::push(const PathElement<S>& element, std::uint32_t index) 
     if (!(move.length() > S{})) {
         if (known_ > 0) { // its joints become one with that of the move before it, which is off by what is left out
             Entry& before = entry(known_ - 1);
-            PerAxis<S> off{};
-            for (const unsigned k : indices(axes_)) {
-                off[k] = distance<S>(last_[k], element.to[k], chord_unit_log2);
-            }
+            const PerAxis<S> off = distances<S>(last_, element.to, chord_unit_log2, axes_);
             before.stop_at_end = before.stop_at_end || stops;
             before.tolerance_at_end = smaller(before.tolerance_at_end, tolerance);
             before.left_out = larger(before.left_out, norm(off, axes_));
@@ -234,10 +228,7 @@ void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
     int degree = 1;
     if (present.move.shape() == MoveShape::bezier) {
         degree = present.move.bezier_part(before_, after_, points);
-        PerAxis<S> end{};
-        for (const unsigned k : indices(axes_)) {
-            end[k] = points[k][static_cast<unsigned>(degree)];
-        }
+        const PerAxis<S> end = control_at(points, static_cast<unsigned>(degree), axes_);
         there = after_ > S{} ? offset_by(present.move.from(), end, axes_) : present.move.to();
         place_ends(points, degree, there);
     } else {
@@ -332,10 +323,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
         }
     }
     describe(stage_ == Stage::second_half && last ? behind : present, blend_.degree, out);
-    PerAxis<S> end{};
-    for (const unsigned k : indices(axes_)) {
-        end[k] = points[k][degree];
-    }
+    const PerAxis<S> end = control_at(points, degree, axes_);
     out.origin = vertex;
     here_ = out.end = offset_by(vertex, end, axes_);
     out.assign(points);

@@ -29,11 +29,8 @@ void ChainFit<S>::measure_way(std::uint64_t to) noexcept {
         PerAxis<S> chord{};
         points_.smoothed(i - 1, i, chord);
         const S length = norm(chord, points_.axes());
-        for (const unsigned k : indices(points_.axes())) {
-            chord[k] = chord[k] / length;
-            before[k] = i > from_ + 1 ? chord[k] - before[k] : S{};
-        }
-        const S turn = norm(before, points_.axes());
+        divide(chord, length, points_.axes());
+        const S turn = i > from_ + 1 ? norm(difference(chord, before, points_.axes()), points_.axes()) : S{};
         bend_ = larger(bend_, quotient_or_max(scale2(turn, bend_log2 + 1), length + length_before));
         // The line turns by the half of what its ends do; the first and the last one have one inner end.
         const S half = i > from_ + 1 ? turn : S{};
@@ -128,20 +125,14 @@ bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit, bool bends) 
     derivatives(u, first, second);
     place(u, at);
     const S speed = scale2(way_, -unit_);
-    S ahead{};
-    S across{};
-    for (const unsigned k : indices(points_.axes())) {
-        ahead += (point[k] - at[k]) * (first[k] / speed);
-        across += first[k] / speed * (second[k] / speed);
-    }
-    const S step = ahead / speed;
+    const int axes = points_.axes();
+    divide(first, speed, axes);
+    divide(second, speed, axes);
+    const S step = dot(difference(point, at, axes), first, axes) / speed;
+    subtract(second, dot(first, second, axes), first, axes);
     place(larger(S{}, smaller(from_integer<S>(1), u + step)), at);
-    for (const unsigned k : indices(points_.axes())) {
-        at[k] = point[k] - at[k];
-        second[k] = second[k] / speed - across * (first[k] / speed);
-    }
-    const S bend = scale2(norm(second, points_.axes()), bend_log2 - unit_) / speed;
-    return norm(at, points_.axes()) <= limit &&
+    const S bend = scale2(norm(second, axes), bend_log2 - unit_) / speed;
+    return norm(difference(point, at, axes), axes) <= limit &&
            (!bends || bend <= literal<S>(bend_factor) * bend_ + literal<S>(bend_more));
 }
 

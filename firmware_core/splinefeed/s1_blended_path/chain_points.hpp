@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s1_curve/curve_segment.hpp"
 
 namespace splinefeed {
@@ -64,9 +65,7 @@ public:
     }
     /// From one programmed point to another.
     void programmed(std::uint64_t from, std::uint64_t to, PerAxis<S>& out) const noexcept {
-        for (const unsigned k : indices(axes_)) {
-            out[k] = distance<S>((*this)[from].place[k], (*this)[to].place[k], chord_unit_log2);
-        }
+        out = distances<S>((*this)[from].place, (*this)[to].place, chord_unit_log2, axes_);
     }
     /// From one point of the spline to another.
     void smoothed(std::uint64_t from, std::uint64_t to, PerAxis<S>& out) const noexcept {

@@ -76,7 +76,7 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
     if (element.shape != MoveShape::line || element.mode != PathMode::continuous || !(element.tolerance_mm > S{}) ||
         !(length > literal<S>(shortest_line) && length < literal<S>(longest_line))) {
         kind_ = Kind::single;
-        held_ = {element, index};
+        kept_ = {element, index};
         return;
     }
     kind_ = Kind::chain;

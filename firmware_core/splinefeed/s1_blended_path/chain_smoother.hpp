@@ -81,7 +81,7 @@ private:
     PerAxis<Position> start_{};
     PerAxis<S> direction_{};   // of the last line of the chain
     PathState<S> state_{};     // where the chain was passed on to
-    IndexedMove<S> held_{};    // a move that is no chain
+    IndexedMove<S> kept_{};    // a move that is no chain
     IndexedMove<S> pending_{}; // the move behind the chain
     PathElement<S> end_{};     // the last one of the chain
     std::uint32_t end_index_ = 0;

@@ -183,7 +183,7 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out, LineParts& parts) noexcept {
         return finished_ ? Pull::finished : Pull::starved;
     }
     if (kind_ == Kind::single) {
-        out = held_;
+        out = kept_;
         ++passed_;
         begin_pending(out.element.to);
         return Pull::item;

@@ -71,9 +71,7 @@ void measure_last_point(ChainPoints<S>& points, S tolerance) noexcept {
     S half_bow = norm(in, points.axes());
     if (half_bow >= tolerance) {
         const S share = smaller(behind, ahead) / longer;
-        for (const unsigned k : indices(points.axes())) {
-            in[k] = share * share * in[k];
-        }
+        scale(in, share * share, points.axes());
         half_bow = share * share * half_bow;
     }
     here.centre = half_bow < tolerance ? in : PerAxis<S>{};
@@ -112,17 +110,13 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
         PerAxis<S> difference{};
         for (unsigned m = 0; m < 4; ++m) {
             const PerAxis<S>& at = around[static_cast<unsigned>(j - first) + m];
-            for (unsigned k = 0; k < axes; ++k) {
-                difference[k] += of.difference[m] * at[k];
-            }
+            add(difference, of.difference[m], at, points.axes());
         }
         // The square of a factor times a length: the fifth power of its unit.
         const S factor = of.difference[static_cast<unsigned>(i - (j - 3))];
         const S share = scale2(of.weight * factor, -5 * coarser);
         stiffness += share * factor;
-        for (unsigned k = 0; k < axes; ++k) {
-            pull[k] += share * difference[k];
-        }
+        add(pull, share, difference, points.axes());
     }
     if (!(stiffness > S{})) {
         return;

@@ -139,11 +139,8 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
     Joint<S> joint;
     const S jump = distance_between(in.tangent, out.tangent, axes);
     joint.half_sine = scale2(jump, -1);
-    PerAxis<S> sum{};
-    for (const unsigned k : indices(axes)) {
-        sum[k] = in.tangent[k] + out.tangent[k];
-    }
-    const bool reverses = scale2(norm(sum, axes), -1) < literal<S>(reversal_half_cosine);
+    const PerAxis<S> both = plus(in.tangent, out.tangent, axes);
+    const bool reverses = scale2(norm(both, axes), -1) < literal<S>(reversal_half_cosine);
     const bool exact = mode == PathMode::exact_path || !(tolerances.corner > S{});
     if (mode == PathMode::exact_stop || reverses || (exact && jump > literal<S>(corner_jump))) {
         return joint;

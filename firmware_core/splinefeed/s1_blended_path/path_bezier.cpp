@@ -34,11 +34,7 @@ template <Scalar S>
 S PathBezier<S>::polygon() const noexcept {
     S length{};
     for (const unsigned i : indices(degree_)) {
-        PerAxis<S> side{};
-        for (const unsigned k : indices(axes_)) {
-            side[k] = points_[k][i + 1] - points_[k][i];
-        }
-        length += norm(side, axes_);
+        length += norm(leg(points_, i, i + 1, axes_), axes_);
     }
     return length;
 }
@@ -47,13 +43,7 @@ template <Scalar S>
 bool PathBezier<S>::has_directions() const noexcept {
     const S least = scale2(polygon(), -16);
     const auto n = static_cast<unsigned>(degree_);
-    PerAxis<S> first{};
-    PerAxis<S> last{};
-    for (const unsigned k : indices(axes_)) {
-        first[k] = points_[k][1] - points_[k][0];
-        last[k] = points_[k][n] - points_[k][n - 1];
-    }
-    return norm(first, axes_) > least && norm(last, axes_) > least;
+    return norm(leg(points_, 0, 1, axes_), axes_) > least && norm(leg(points_, n - 1, n, axes_), axes_) > least;
 }
 
 // K = (C'' - (C'' T) T) / |C'|^2.
@@ -83,15 +73,11 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
     if (!(speed > S{})) {
         return;
     }
-    S along{};
-    for (const unsigned k : indices(axes_)) {
-        out.tangent[k] = first[k] / speed;
-        second[k] = second[k] / speed;
-        along += second[k] * out.tangent[k];
-    }
-    for (const unsigned k : indices(axes_)) {
-        out.bend[k] = scale2(second[k] - along * out.tangent[k], bend_log2) / speed;
-    }
+    divide(first, speed, axes_);
+    divide(second, speed, axes_);
+    out.tangent = first;
+    const S along = dot(second, first, axes_);
+    out.bend = each(axes_, [&](unsigned k) { return scale2(second[k] - along * first[k], bend_log2) / speed; });
     // Beside that the ends of a move are positions, in 2^-40 mm.
     const S size = from_integer<S>(1) + norm(second, axes_);
     const S of_ends =
@@ -123,14 +109,13 @@ void PathBezier<S>::part(S u0, S u1, PerAxis<PerDegree<S>>& out) const noexcept 
 
 template <Scalar S>
 S PathBezier<S>::distance_at(S u, bool at_end, const PerAxis<S>& point) const noexcept {
-    PerAxis<S> apart{};
-    for (const unsigned k : indices(axes_)) {
+    const auto apart = [&](unsigned k) {
         PerDegree<S> row = points_[k];
         const S from = at_end ? row[static_cast<unsigned>(degree_)] : S{};
         reduce(row, degree_, 0, u);
-        apart[k] = point[k] - (row[0] - from);
-    }
-    return norm(apart, axes_);
+        return point[k] - (row[0] - from);
+    };
+    return norm(each(axes_, apart), axes_);
 }
 
 template <Scalar S>
@@ -163,10 +148,9 @@ S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexc
         if (!(speed > S{})) {
             break;
         }
-        S ahead{};
-        for (const unsigned k : indices(axes_)) {
-            ahead += first[k] / speed * (apart[k] / speed);
-        }
+        divide(first, speed, axes_);
+        divide(apart, speed, axes_);
+        const S ahead = dot(first, apart, axes_);
         u = at_end ? larger(half, smaller(one, u + ahead)) : larger(S{}, smaller(half, u + ahead));
     }
     return least;

@@ -39,9 +39,9 @@ struct PathElement {
     bool stop_at_end = false;             ///< the machine stops at the end whatever the mode is, e.g. for a dwell
     bool joined = false; ///< it goes on with the direction and curvature of the move before it: there is no joint
     PerAxis<Position> to{};
-    ArcShape<S> arc{};       ///< of an arc
-    BezierShape<S> bezier{}; ///< of a Bezier segment
-    S tolerance_mm{};        ///< largest distance between the path and the moves, both ways; 0: the path is exact
+    ArcShape<S> arc{};
+    BezierShape<S> bezier{};
+    S tolerance_mm{}; ///< largest distance between the path and the moves, both ways; 0: the path is exact
     /// The same where short lines are joined into one curve; above tolerance_mm it is that; 0: they are not joined.
     S chain_tolerance_mm = from_integer<S>(100);
     S feed_mm_s{};     ///< programmed feed; 0: the machine's; or rapid_feed

@@ -64,9 +64,8 @@ Status PathMove<S>::set(const PerAxis<Position>& from, const PathElement<S>& ele
         return {};
     }
     length_ = longest_way_ = norm(chord, axes);
-    for (const unsigned k : indices(axes)) {
-        along_[k] = chord[k] / length_;
-    }
+    divide(chord, length_, axes);
+    along_ = chord;
     return {};
 }
 
@@ -95,17 +94,13 @@ S PathMove<S>::frame_at(const PerAxis<Position>& place, const ArcShape<S>& arc, 
     for (unsigned k = 0; k < in_plane(); ++k) {
         arm[k] = distance<S>(arc.centre[k], place[k], chord_unit_log2);
     }
-    const S height = dot(arm, arc.normal, 3);
-    for (unsigned k = 0; k < 3; ++k) {
-        arm[k] = arm[k] - height * arc.normal[k];
-    }
+    subtract(arm, dot(arm, arc.normal, 3), arc.normal, 3);
     const S radius = norm(arm, 3);
     if (!(radius > S{})) {
         return radius;
     }
-    for (unsigned k = 0; k < 3; ++k) {
-        out.radial[k] = arm[k] / radius;
-    }
+    divide(arm, radius, 3);
+    out.radial = arm;
     const std::array<S, 3>& n = arc.normal;
     const std::array<S, 3>& x = out.radial;
     const bool clockwise = arc.sweep_rad < S{};
@@ -166,9 +161,8 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     const std::array<S, 2> legs{radius * sweep_, norm(rise, axes_)};
     length_ = norm(legs, 2);
     in_plane_ = legs[0] / length_;
-    for (const unsigned k : indices(axes_)) {
-        along_[k] = rise[k] / length_;
-    }
+    divide(rise, length_, axes_);
+    along_ = rise;
     longest_way_ = smaller(length_, scale2(smaller(radius_start_, radius_end_), -1));
     return {};
 }
@@ -179,9 +173,7 @@ void PathMove<S>::turned(const Frame& frame, S cosine, S sine, S radius, PathSta
     // K = cos^2(pitch) / r, in units of 2^-bend_log2.
     const S bend = quotient_or_max(literal<S>(0x1p20) * in_plane_ * in_plane_, radius);
     out = {};
-    for (const unsigned k : indices(axes_)) {
-        out.tangent[k] = along_[k];
-    }
+    out.tangent = along_;
     for (unsigned k = 0; k < in_plane(); ++k) {
         const S radial = cosine * frame.radial[k] + sine * frame.along[k];
         out.offset[k] = radius * radial;
@@ -200,9 +192,8 @@ void PathMove<S>::near(bool at_end, S way, PathState<S>& out) const noexcept {
     const S wider = (radius_end_ - radius_start_) * (way / length_);
     const S radius = (at_end ? radius_end_ : radius_start_) + wider;
     turned(frame, from_integer<S>(1) - versine, sine, radius, out);
-    for (const unsigned k : indices(axes_)) {
-        out.offset[k] = way * along_[k];
-    }
+    out.offset = along_;
+    scale(out.offset, way, axes_);
     for (unsigned k = 0; k < in_plane(); ++k) {
         out.offset[k] += radius * (sine * frame.along[k] - versine * frame.radial[k]) + wider * frame.radial[k];
     }
@@ -232,10 +223,8 @@ void PathMove<S>::behind_start(S way, PathState<S>& out) const noexcept {
         return;
     }
     out = {};
-    for (const unsigned k : indices(axes_)) {
-        out.tangent[k] = along_[k];
-        out.offset[k] = way * along_[k];
-    }
+    out.tangent = out.offset = along_;
+    scale(out.offset, way, axes_);
 }
 
 template <Scalar S>
@@ -320,9 +309,7 @@ void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, Path
     }
     const S radius = radius_start_ + (radius_end_ - radius_start_) * share;
     turned(start_, cosine, sine, radius, out);
-    for (const unsigned k : indices(axes_)) {
-        out.offset[k] += way * along_[k];
-    }
+    add(out.offset, way, along_, axes_);
     for (unsigned k = 0; k < in_plane(); ++k) {
         out.offset[k] -= radius_start_ * start_.radial[k];
     }

@@ -34,13 +34,8 @@ Status TolerancePath<S>::start(const PerAxis<Position>& position) noexcept {
 // ends of the move it is known to more digits than from its cells.
 template <Scalar S>
 void TolerancePath<S>::feed_along_path(PathElement<S>& element) const noexcept {
-    PerAxis<S> linear{};
-    PerAxis<S> all{};
-    for (const unsigned k : indices(axes_)) {
-        all[k] = distance<S>(last_[k], element.to[k], chord_unit_log2);
-        linear[k] = rotary_[k] ? S{} : all[k];
-    }
-    const S counted = norm(linear, axes_);
+    const PerAxis<S> all = distances<S>(last_, element.to, chord_unit_log2, axes_);
+    const S counted = norm(each(axes_, [&](unsigned k) { return rotary_[k] ? S{} : all[k]; }), axes_);
     const S way = norm(all, axes_);
     element.feed_along_path = element.shape == MoveShape::line && counted > S{} && !(element.feed_mm_s < S{}) &&
                               counted < scale2(way, least_share_log2);

@@ -39,6 +39,7 @@
 #include "splinefeed/s1_curve/control_point_stream.hpp"
 
 #include "splinefeed/number/instantiate.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -53,9 +54,8 @@ void ControlPointStream<S, Joints>::eliminate_tangent(std::uint64_t i) noexcept 
     if (i == first_) {
         const bool given = tangents_.has_start && i == 0;
         here.gamma = given ? S{} : literal<S>(0.5);
-        for (const unsigned k : indices(this->axes())) {
-            here.rho[k] = given ? tangents_.start[k] * knot.length : literal<S>(1.5) * knot.chord[k];
-        }
+        here.rho = given ? tangents_.start : knot.chord;
+        scale(here.rho, given ? knot.length : literal<S>(1.5), this->axes());
         return;
     }
     const Row& previous = row(i - 1);
@@ -67,9 +67,8 @@ void ControlPointStream<S, Joints>::eliminate_tangent(std::uint64_t i) noexcept 
     if (knot.breaks) { // the end of the run
         if (tangents_.has_end && this->finished_ && i + 1 == this->known_) {
             here.gamma = S{};
-            for (const unsigned k : indices(this->axes())) {
-                here.rho[k] = tangents_.end[k] * knot_before.length;
-            }
+            here.rho = tangents_.end;
+            scale(here.rho, knot_before.length, this->axes());
             return;
         }
     } else {

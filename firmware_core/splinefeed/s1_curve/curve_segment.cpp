@@ -38,30 +38,18 @@ void CurveSegment<S>::straighten() noexcept {
         return;
     }
     const auto n = static_cast<unsigned>(degree);
-    PerAxis<S> direction{};
-    for (const unsigned k : indices(axes)) {
-        direction[k] = control[k][n] - control[k][0];
-    }
+    PerAxis<S> direction = leg(control, 0, n, axes);
     const S length = norm(direction, axes);
     if (!(scale2(length, unit_log2) > literal<S>(shortest_line_mm))) {
         return;
     }
-    for (const unsigned k : indices(axes)) {
-        direction[k] = direction[k] / length;
-    }
+    divide(direction, length, axes);
     S before{};
     for (unsigned i = 1; i < n; ++i) {
-        PerAxis<S> from_start{};
-        for (const unsigned k : indices(axes)) {
-            from_start[k] = control[k][i] - control[k][0];
-        }
-        const S along = dot(from_start, direction, axes);
-        for (const unsigned k : indices(axes)) {
-            if (absolute(from_start[k] - along * direction[k]) > negligible_units<S>) {
-                return;
-            }
-        }
-        if (along < before || along > length) {
+        PerAxis<S> beside = leg(control, 0, i, axes);
+        const S along = dot(beside, direction, axes);
+        subtract(beside, along, direction, axes);
+        if (along < before || along > length || largest_size(beside, axes) > negligible_units<S>) {
             return;
         }
         before = along;

@@ -70,21 +70,15 @@ bool mean_direction(const Derivatives<S>& a, const Derivatives<S>& b, int axes, 
     if (!(a.length >= least && b.length >= least)) {
         return false;
     }
-    PerAxis<S> sum{};
-    PerAxis<S> apart{};
-    for (const unsigned k : indices(axes)) {
-        const S from = a.first[k] / a.length;
-        const S to = b.first[k] / b.length;
-        sum[k] = from + to;
-        apart[k] = to - from;
-    }
-    if (norm(apart, axes) > literal<S>(0x1p-10)) {
+    PerAxis<S> from = a.first;
+    PerAxis<S> to = b.first;
+    divide(from, a.length, axes);
+    divide(to, b.length, axes);
+    if (norm(difference(to, from, axes), axes) > literal<S>(0x1p-10)) {
         return false;
     }
-    const S twice = norm(sum, axes);
-    for (const unsigned k : indices(axes)) {
-        direction[k] = sum[k] / twice;
-    }
+    direction = plus(from, to, axes);
+    divide(direction, norm(direction, axes), axes);
     return true;
 }
 
@@ -155,10 +149,9 @@ Derivatives<S> promoted(const CurveSegment<S>& segment, bool at_end, const End& 
     Derivatives<S> own = derivatives_at(segment, at_end);
     if (end.shared) {
         const S along = dot(own.second, end.direction, segment.axes);
-        for (const unsigned k : indices(segment.axes)) {
-            own.first[k] = end.tangent[k];
-            own.second[k] = end.curvature[k] + along * end.direction[k];
-        }
+        own.first = end.tangent;
+        own.second = end.curvature;
+        add(own.second, along, end.direction, segment.axes);
     }
     return own;
 }

@@ -114,10 +114,11 @@ void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
         here.breaks = here.corner == Corner::forced;
         return;
     }
-    S cosine{};
-    for (const unsigned k : indices(axes())) {
-        cosine += (before.chord[k] / before.length) * (here.chord[k] / here.length);
-    }
+    PerAxis<S> in = before.chord;
+    PerAxis<S> out = here.chord;
+    divide(in, before.length, axes());
+    divide(out, here.length, axes());
+    const S cosine = dot(in, out, axes());
     // The tolerance prevents that rounding decides about an exact 60-degree turn.
     here.breaks = cosine < options_.corner_cosine - literal<S>(1e-6);
 }

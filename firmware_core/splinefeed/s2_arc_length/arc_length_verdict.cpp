@@ -63,10 +63,9 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 // needs none of it where the plan speeds up and brakes within a cell.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
-    for (const unsigned k : indices(current().axes)) {
-        if (m_.length_mm * absolute(m_.first[1][k]) > refinement_.longest_mm[k]) {
-            return true;
-        }
+    if (for_any(current().axes,
+                [&](unsigned k) { return m_.length_mm * absolute(m_.first[1][k]) > refinement_.longest_mm[k]; })) {
+        return true;
     }
     if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
         return true;
@@ -142,11 +141,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     if (!last && m_.length_error > times(8, refinement_.metric_error * m_.length + m_.noise)) {
         return Verdict::coarse;
     }
-    Ratio<S> turn{};
-    for (const unsigned k : indices(axes)) {
-        turn = larger(turn, absolute(m_.first[2][k] - m_.first[0][k]));
-    }
-    if (turn > refinement_.turn) {
+    if (largest_size(difference(m_.first[2], m_.first[0], axes), axes) > refinement_.turn) {
         return last ? Verdict::cusp : Verdict::coarse;
     }
     m_.invert();

@@ -42,8 +42,10 @@ void Cell<S>::direction_at(X x, PerAxis<X>& out) const noexcept {
         out[k] = slope;
     }
     const X sigma = norm(out, axes);
-    for (const unsigned k : indices(axes)) {
-        out[k] = sigma > X{} ? out[k] / sigma : X{};
+    if (sigma > X{}) {
+        divide(out, sigma, axes);
+    } else {
+        out = {};
     }
 }
 

@@ -28,22 +28,16 @@ template <Scalar S>
 bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after, S most) noexcept {
     const int axes = before.axes;
     const auto m = static_cast<unsigned>(before.degree);
-    PerAxis<S> in{};
-    PerAxis<S> out{};
-    for (const unsigned k : indices(axes)) {
-        in[k] = before.control[k][m] - before.control[k][m - 1];
-        out[k] = after.control[k][1] - after.control[k][0];
-    }
+    PerAxis<S> in = leg(before.control, m - 1, m, axes);
+    PerAxis<S> out = leg(after.control, 0, 1, axes);
     const S length_in = norm(in, axes);
     const S length_out = norm(out, axes);
     if (length_in < negligible_units<S> || length_out < negligible_units<S>) {
         return true;
     }
-    S jump{};
-    for (const unsigned k : indices(axes)) {
-        jump = larger(jump, absolute(out[k] / length_out - in[k] / length_in));
-    }
-    return jump > most;
+    divide(in, length_in, axes);
+    divide(out, length_out, axes);
+    return largest_size(difference(out, in, axes), axes) > most;
 }
 
 template <Scalar S>
@@ -53,15 +47,15 @@ bool turns_within(const CurveSegment<S>& segment, S radius_mm) noexcept {
     PerAxis<S> side{};
     S length{};
     for (const unsigned i : indices(segment.degree)) {
-        for (const unsigned k : indices(axes)) {
-            side[k] = segment.control[k][i + 1] - segment.control[k][i];
-        }
+        side = leg(segment.control, i, i + 1, axes);
         const S part = norm(side, axes);
         length += part;
-        for (const unsigned k : indices(axes)) {
-            side[k] = part > S{} ? side[k] / part : S{};
-            first[k] = i == 0 ? side[k] : first[k];
+        if (part > S{}) {
+            divide(side, part, axes);
+        } else {
+            side = {};
         }
+        first = i == 0 ? side : first;
     }
     return segment.degree > 1 &&
            scale2(length, segment.unit_log2) < norm(difference(side, first, axes), axes) * radius_mm;

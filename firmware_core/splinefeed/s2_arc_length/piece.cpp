@@ -196,9 +196,7 @@ template <Scalar S>
 auto PieceMeasure<S>::sharpest_bend(int axes) const noexcept -> R {
     R most{};
     for (const PerAxis<R>& bend : second) {
-        for (const unsigned k : indices(axes)) {
-            most = larger(most, absolute(bend[k]));
-        }
+        most = larger(most, largest_size(bend, axes));
     }
     return most;
 }

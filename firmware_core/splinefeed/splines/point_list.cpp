@@ -2,6 +2,7 @@
 #include "splinefeed/splines/point_list.hpp"
 
 #include "splinefeed/number/instantiate.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -25,11 +26,7 @@ std::size_t closed_count(std::span<const Point<S>> points) noexcept {
 
 template <Scalar S>
 Point<S> chord_between(const Point<S>& from, const Point<S>& to) noexcept {
-    Point<S> out{};
-    for (const unsigned k : indices(max_axes)) {
-        out[k] = to[k] - from[k];
-    }
-    return out;
+    return difference(to, from, max_axes);
 }
 
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \

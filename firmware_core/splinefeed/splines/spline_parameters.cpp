@@ -27,11 +27,7 @@ S span_length(const Point<S>& from, const Point<S>& to, int axes, Parameterizati
     if (how == Parameterization::uniform) {
         return from_integer<S>(1);
     }
-    Point<S> chord{};
-    for (const unsigned k : indices(axes)) {
-        chord[k] = to[k] - from[k];
-    }
-    const S length = norm(chord, axes);
+    const S length = norm(difference(to, from, axes), axes);
     return how == Parameterization::chordal ? length : square_root(length);
 }
 

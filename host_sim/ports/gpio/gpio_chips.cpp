@@ -9,11 +9,11 @@ namespace splinefeed::host {
 
 using hal::gpio::ChipOutputs;
 using hal::gpio::LevelMasks;
-using hal::gpio::LineBit;
+using hal::gpio::PinBit;
 
 namespace {
 
-LevelMasks masks_of(LineBit line, bool inverted) {
+LevelMasks masks_of(PinBit line, bool inverted) {
     return {line.mask(), inverted ? line.mask() : 0};
 }
 
@@ -24,20 +24,19 @@ void join(LevelMasks& masks, const LevelMasks& others) {
 
 } // namespace
 
-GpioChips::GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine)
-    : map_(&map), machine_(&machine) {
-    for (const hal::gpio::ChipLines& chip : map.chips) {
+GpioChips::GpioChips(const hal::gpio::PinMap& map, const MachineDescription& machine) : map_(&map), machine_(&machine) {
+    for (const hal::gpio::ChipPins& chip : map.chips) {
         claims_.emplace_back(chip);
     }
-    for (const hal::gpio::ChipLines& chip : map.chips) {
+    for (const hal::gpio::ChipPins& chip : map.chips) {
         writer_.push_back(chip.outputs.empty()
                               ? nullptr
-                              : std::make_unique<hal::gpio::OutputLines>(chip.chip, map.consumer, chip.outputs));
+                              : std::make_unique<hal::gpio::OutputPins>(chip.chip, map.consumer, chip.outputs));
         source_.push_back(chip.inputs.empty()
                               ? nullptr
-                              : std::make_unique<hal::gpio::InputLines>(chip.chip, map.consumer, chip.inputs));
+                              : std::make_unique<hal::gpio::InputPins>(chip.chip, map.consumer, chip.inputs));
     }
-    std::vector<hal::gpio::OutputLines*> lines;
+    std::vector<hal::gpio::OutputPins*> lines;
     for (const auto& writer : writer_) {
         if (writer) {
             lines.push_back(writer.get());
@@ -54,7 +53,7 @@ std::vector<ChipOutputs> GpioChips::outputs() {
     for (const unsigned k : indices(machine_->settings.axes)) {
         const StepMotors& polarity = machine_->motors[k];
         for (unsigned m = 0; m < map_->axis[k].motors; ++m) {
-            const hal::gpio::MotorLines& motor = map_->axis[k].motor[m];
+            const hal::gpio::MotorPins& motor = map_->axis[k].motor[m];
             join(chips[motor.step.chip].step[k], masks_of(motor.step, polarity.invert_step));
             join(chips[motor.direction.chip].direction[k], masks_of(motor.direction, polarity.invert_direction[m]));
         }
@@ -69,7 +68,7 @@ std::vector<ChipOutputs> GpioChips::outputs() {
     return chips;
 }
 
-std::vector<hal::gpio::MachineLines::Inputs> GpioChips::inputs() {
+std::vector<hal::gpio::MachinePins::Inputs> GpioChips::inputs() {
     std::vector<Inputs> all;
     for (std::size_t c = 0; c < source_.size(); ++c) {
         Inputs chip{source_[c].get(), {}};
@@ -128,9 +127,9 @@ void GpioChips::keep_drives_on() noexcept {
     }
 }
 
-std::string GpioChips::name(LineBit input) const {
-    const hal::gpio::ChipLines& chip = map_->chips[input.chip];
-    const hal::gpio::LineName& line = chip.inputs[input.bit].line;
+std::string GpioChips::name(PinBit input) const {
+    const hal::gpio::ChipPins& chip = map_->chips[input.chip];
+    const hal::gpio::PinName& line = chip.inputs[input.bit].line;
     return chip.chip + ' ' + (line.name.empty() ? "line " + std::to_string(*line.offset) : line.name);
 }
 

@@ -24,16 +24,16 @@ namespace {
 
 constexpr int calls = 5000;
 
-std::string lines_text(const hal::gpio::LineMap& map) {
+std::string lines_text(const hal::gpio::PinMap& map) {
     std::string text;
-    for (const hal::gpio::ChipLines& chip : map.chips) {
+    for (const hal::gpio::ChipPins& chip : map.chips) {
         text += fmt::format("{}: {} outputs, {} inputs, as \"{}\"\n", chip.chip, chip.outputs.size(),
                             chip.inputs.size(), map.consumer);
     }
     return text;
 }
 
-std::string inputs_text(const hal::gpio::LineMap& map, GpioChips& chips) {
+std::string inputs_text(const hal::gpio::PinMap& map, GpioChips& chips) {
     std::string text;
     for (const GpioChips::Inputs& inputs : chips.inputs()) {
         const std::optional<std::uint64_t> levels = inputs.source->levels();
@@ -69,7 +69,7 @@ void wake_ups(const hal::RealTimeSettings& settings, double seconds, hal::TimeHi
 LinkReport gpio_report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/,
                        double seconds) {
     const GpioAddress address = parse_gpio_address(target);
-    const hal::gpio::LineMap map = read_gpio_map(address.map, machine, address.chip);
+    const hal::gpio::PinMap map = read_gpio_map(address.map, machine, address.chip);
     const hal::gpio::StepPortSettings settings = port_settings(machine, map);
     std::string text = lines_text(map);
     const hal::AwakeHost awake;

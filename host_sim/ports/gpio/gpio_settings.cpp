@@ -2,6 +2,7 @@
 #include "host_sim/ports/gpio/gpio_settings.hpp"
 
 #include "splinefeed/base/units.hpp"
+#include "splinefeed/number/vector.hpp"
 
 #include "host_sim/config/step_lines.hpp"
 
@@ -49,14 +50,12 @@ double asked_edges_per_s(const MachineDescription& machine) noexcept {
     return steps * (machine.step.step_on_edge ? 1.0 : 2.0);
 }
 
-hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::PinMap& map,
                                           hal::Clock* clock) {
     const bool real = clock == nullptr;
-    PerAxis<double> acceleration{};
-    for (const unsigned k : indices(machine.settings.axes)) {
-        const AxisSettings& axis = machine.settings.axis[k];
-        acceleration[k] = axis.max_acceleration_mm_s2 * axis.steps_per_mm;
-    }
+    const auto& axis = machine.settings.axis;
+    const PerAxis<double> acceleration =
+        each(machine.settings.axes, [&](unsigned k) { return axis[k].max_acceleration_mm_s2 * axis[k].steps_per_mm; });
     return {.axes = machine.settings.axes,
             .timing = checked_step_timing(machine),
             .real_time = {.priority = real ? map.thread.priority : 0,
@@ -86,15 +85,14 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
             .settle_us = 2000};
 }
 
-hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+hal::gpio::GpioPortSettings gpio_port_settings(const MachineDescription& machine, const hal::gpio::PinMap& map,
                                                const RunOptions& options, hal::Clock* clock) {
     constexpr double search_mm = 2000.0; // of an axis without travel limits
     constexpr double beyond = 1.2;       // of its travel
-    PerAxis<double> search{};
-    for (const unsigned k : indices(machine.settings.axes)) {
+    const PerAxis<double> search = each(machine.settings.axes, [&](unsigned k) {
         const auto& travel = machine.travel[k];
-        search[k] = travel ? beyond * (travel->high - travel->low) : search_mm;
-    }
+        return travel ? beyond * (travel->high - travel->low) : search_mm;
+    });
     return {.machine = machine.settings,
             .axis_name = machine.axis_name,
             .search_mm = search,

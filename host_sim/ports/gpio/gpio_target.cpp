@@ -68,7 +68,7 @@ std::string lacking(const hal::RealTimeSettings& settings) {
 }
 
 /// Throws UsageError where the machine cannot do what is asked of it.
-void require_fit(const hal::gpio::LineMap& map, const MachineDescription& machine, hal::gpio::MachineLines& lines,
+void require_fit(const hal::gpio::PinMap& map, const MachineDescription& machine, hal::gpio::MachinePins& lines,
                  const RunOptions& options) {
     const std::vector<std::uint64_t> times = lines.set_times_ns(measured_calls);
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
@@ -89,7 +89,7 @@ void require_fit(const hal::gpio::LineMap& map, const MachineDescription& machin
 
 } // namespace
 
-GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<hal::gpio::MachineLines> lines,
+GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::PinMap> map, std::unique_ptr<hal::gpio::MachinePins> lines,
                        const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
     : machine_(&machine), map_(std::move(map)), lines_(std::move(lines)),
       port_(*map_, gpio_port_settings(machine, *map_, options, clock), *lines_,
@@ -104,7 +104,7 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
 
 std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
                                              const RunOptions& options) {
-    auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
+    auto map = std::make_unique<hal::gpio::PinMap>(read_gpio_map(address.map, machine, address.chip));
     try {
         auto lines = std::make_unique<GpioChips>(*map, machine);
         return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);

@@ -15,7 +15,7 @@ public:
     /// Throws TargetError, and UsageError if the chip is too slow for the machine's limits. `machine` must outlive it.
     /// @param lines  lines of the map
     /// @param clock  null: the system's clock; the target then also requests real-time priority. Must outlive it.
-    GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<hal::gpio::MachineLines> lines,
+    GpioTarget(std::unique_ptr<hal::gpio::PinMap> map, std::unique_ptr<hal::gpio::MachinePins> lines,
                const MachineDescription& machine, const RunOptions& options, hal::Clock* clock = nullptr);
 
     [[nodiscard]] TargetFacts facts() const override;
@@ -40,8 +40,8 @@ private:
 
     const MachineDescription* machine_;
     std::optional<hal::AwakeHost> awake_;
-    std::unique_ptr<hal::gpio::LineMap> map_;
-    std::unique_ptr<hal::gpio::MachineLines> lines_;
+    std::unique_ptr<hal::gpio::PinMap> map_;
+    std::unique_ptr<hal::gpio::MachinePins> lines_;
     GpioSummary input_summary_; // changes of inputs
     std::string missing_;       // real-time rights that are missing
     hal::gpio::GpioPort port_;

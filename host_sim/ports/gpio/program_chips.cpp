@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/ports/gpio/program_chips.hpp"
 
-#include "host_sim/ports/gpio/line_claims.hpp"
+#include "host_sim/ports/gpio/pin_claims.hpp"
 #include "host_sim/ports/run_target.hpp"
 
 #include "splinefeed/hal/gpio/crash_guard.hpp"
-#include "splinefeed/hal/gpio/input_lines.hpp"
+#include "splinefeed/hal/gpio/input_pins.hpp"
 
 #include <array>
 #include <mutex>
@@ -17,9 +17,9 @@ namespace {
 constexpr const char* line_consumer = "splinefeed";
 
 /// Safe at the end, and if the program crashes.
-class GuardedLines final : public hal::gpio::LineWriter {
+class GuardedPins final : public hal::gpio::PinWriter {
 public:
-    explicit GuardedLines(const hal::gpio::ChipLines& chip)
+    explicit GuardedPins(const hal::gpio::ChipPins& chip)
         : claims_(chip), lines_(chip.chip, line_consumer, chip.outputs), chips_{&lines_}, guard_(chips_) {}
     [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
         const std::lock_guard lock(mutex_);
@@ -27,28 +27,28 @@ public:
     }
 
 private:
-    LineClaims claims_;
+    PinClaims claims_;
     std::mutex mutex_;
-    hal::gpio::OutputLines lines_;
-    std::array<hal::gpio::OutputLines*, 1> chips_;
+    hal::gpio::OutputPins lines_;
+    std::array<hal::gpio::OutputPins*, 1> chips_;
     hal::gpio::CrashGuard guard_;
 };
 
-struct ReadLines {
-    explicit ReadLines(const hal::gpio::ChipLines& chip) : claims(chip), lines(chip.chip, line_consumer, chip.inputs) {}
+struct ReadPins {
+    explicit ReadPins(const hal::gpio::ChipPins& chip) : claims(chip), lines(chip.chip, line_consumer, chip.inputs) {}
 
-    LineClaims claims;
-    hal::gpio::InputLines lines;
+    PinClaims claims;
+    hal::gpio::InputPins lines;
 };
 
 } // namespace
 
-ProgramChips open_program_chips(const ProgramLines& lines) {
+ProgramChips open_program_chips(const ProgramPins& lines) {
     ProgramChips out;
     try {
-        for (const hal::gpio::ChipLines& chip : lines.chips) {
-            out.writer.push_back(chip.outputs.empty() ? nullptr : std::make_shared<GuardedLines>(chip));
-            const auto read = chip.inputs.empty() ? nullptr : std::make_shared<ReadLines>(chip);
+        for (const hal::gpio::ChipPins& chip : lines.chips) {
+            out.writer.push_back(chip.outputs.empty() ? nullptr : std::make_shared<GuardedPins>(chip));
+            const auto read = chip.inputs.empty() ? nullptr : std::make_shared<ReadPins>(chip);
             out.source.emplace_back(read, read ? &read->lines : nullptr);
         }
     } catch (const hal::gpio::GpioError& error) {
@@ -57,9 +57,9 @@ ProgramChips open_program_chips(const ProgramLines& lines) {
     return out;
 }
 
-std::string name_of_output(const ProgramLines& lines, hal::gpio::LineBit line) {
-    const hal::gpio::ChipLines& chip = lines.chips[line.chip];
-    const hal::gpio::LineName& name = chip.outputs[line.bit].line;
+std::string name_of_output(const ProgramPins& lines, hal::gpio::PinBit line) {
+    const hal::gpio::ChipPins& chip = lines.chips[line.chip];
+    const hal::gpio::PinName& name = chip.outputs[line.bit].line;
     return chip.chip + ' ' + (name.name.empty() ? "line " + std::to_string(*name.offset) : name.name);
 }
 

@@ -2,10 +2,10 @@
 // ProgramChips: the lines that a program switches and reads, requested from their chips.
 #pragma once
 
-#include "host_sim/config/program_lines.hpp"
+#include "host_sim/config/program_pins.hpp"
 
 #include "splinefeed/hal/gpio/input_source.hpp"
-#include "splinefeed/hal/gpio/line_writer.hpp"
+#include "splinefeed/hal/gpio/pin_writer.hpp"
 
 #include <memory>
 #include <string>
@@ -13,20 +13,20 @@
 
 namespace splinefeed::host {
 
-/// For each chip of ProgramLines; null: it has no outputs, or no inputs.
+/// For each chip of ProgramPins; null: it has no outputs, or no inputs.
 struct ProgramChips {
-    std::vector<std::shared_ptr<hal::gpio::LineWriter>> writer; ///< for several threads
+    std::vector<std::shared_ptr<hal::gpio::PinWriter>> writer; ///< for several threads
     std::vector<std::shared_ptr<hal::gpio::InputSource>> source;
 
-    [[nodiscard]] bool set(const SwitchedLine& line, bool on) const noexcept {
+    [[nodiscard]] bool set(const SwitchedPin& line, bool on) const noexcept {
         return writer[line.line.chip]->set(line.line.mask(), on == line.on_level ? line.line.mask() : 0);
     }
 };
 
 /// The lines have their safe levels until they are set, at the end, and if the program crashes. Throws TargetError.
-[[nodiscard]] ProgramChips open_program_chips(const ProgramLines& lines);
+[[nodiscard]] ProgramChips open_program_chips(const ProgramPins& lines);
 
 /// "/dev/gpiochip0 MIST"
-[[nodiscard]] std::string name_of_output(const ProgramLines& lines, hal::gpio::LineBit line);
+[[nodiscard]] std::string name_of_output(const ProgramPins& lines, hal::gpio::PinBit line);
 
 } // namespace splinefeed::host

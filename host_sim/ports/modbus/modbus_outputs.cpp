@@ -76,7 +76,7 @@ private:
 class IoModuleOutputs final : public OutputPart {
 public:
     /// @param lines  must outlive it
-    explicit IoModuleOutputs(const ProgramLines& lines) : lines_(&lines) {
+    explicit IoModuleOutputs(const ProgramPins& lines) : lines_(&lines) {
         for (const IoModule& module : lines.modules) {
             claims_.add(module.address);
         }
@@ -201,7 +201,7 @@ private:
         }
     }
 
-    const ProgramLines* lines_;
+    const ProgramPins* lines_;
     WireClaims claims_;
     std::vector<std::pair<LinkAddress, std::unique_ptr<ModuleBus>>> buses_;
     std::vector<std::size_t> bus_of_module_;

@@ -16,8 +16,8 @@
 namespace splinefeed::host {
 
 /// What drives are reached by, and its time.
-struct DriveLines {
-    hal::modbus::MakeLine make = hal::modbus::make_link;
+struct DriveWires {
+    hal::modbus::MakeWire make = hal::modbus::make_link;
     hal::Clock* clock = &hal::system_clock(); ///< must outlive the target
 };
 
@@ -29,12 +29,12 @@ protected:
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
-                 const DriveLines& lines, WiringOf wiring_of)
+                 const DriveWires& wires, WiringOf wiring_of)
         : machine_(&machine), table_(std::move(table)), claims_(table_),
           port_(wiring_of(table_, machine), {.orders = options.orders,
                                              .interrupted = options.interrupted,
-                                             .make_line = lines.make,
-                                             .clock = lines.clock}) {
+                                             .make_wire = wires.make,
+                                             .clock = wires.clock}) {
         require(port_.open());
     }
 

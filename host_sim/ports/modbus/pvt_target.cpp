@@ -61,8 +61,8 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
 }
 
 PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
-                     const DriveLines& lines)
-    : ModbusTarget(std::move(table), machine, options, lines, pvt_wiring), clock_(lines.clock) {
+                     const DriveWires& wires)
+    : ModbusTarget(std::move(table), machine, options, wires, pvt_wiring), clock_(wires.clock) {
     least_segment_us_ = port_.least_segment_us();
 }
 

@@ -21,7 +21,7 @@ class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
 public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
     PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
-              const DriveLines& lines = {});
+              const DriveWires& wires = {});
 
     [[nodiscard]] TargetFacts facts() const override;
     void check(const MachineDescription& machine, double segment_us) const override {

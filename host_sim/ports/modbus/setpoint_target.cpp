@@ -106,8 +106,8 @@ void check_register_ranges(const DriveTable& table, const MachineDescription& ma
 }
 
 SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
-                               const DriveLines& lines)
-    : ModbusTarget(std::move(table), machine, options, lines, target_wiring) {
+                               const DriveWires& wires)
+    : ModbusTarget(std::move(table), machine, options, wires, target_wiring) {
     const std::uint32_t period_us = port_.period_us();
     for (const DriveTable::Drive& drive : table_.drives) {
         if (!machine.drives_on_at_end.value_or(true) && drive.profile.steps_of(DriveCommand::disable).empty()) {

@@ -27,7 +27,7 @@ public:
     /// Connects to the drives. Throws TargetError, and UsageError if the lines are too slow. @pre they do not
     /// interpolate
     SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options,
-                   const DriveLines& lines = {});
+                   const DriveWires& wires = {});
 
     [[nodiscard]] TargetFacts facts() const override;
     [[nodiscard]] std::string fit(MachineDescription& machine) const override { return fit_to_ramps(table_, machine); }

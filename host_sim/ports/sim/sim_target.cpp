@@ -5,6 +5,7 @@
 #include "host_sim/ports/target_table.hpp"
 
 #include "splinefeed/base/units.hpp"
+#include "splinefeed/number/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,12 +49,10 @@ hal::PortFailure SimTarget::renew(const FeedSegment& first) {
 }
 
 PerAxis<double> SimTarget::mm_of(const PerAxis<std::int64_t>& units) const noexcept {
-    PerAxis<double> out{};
-    for (const unsigned k : indices(machine_->settings.axes)) {
-        out[k] = static_cast<double>(units[k]) /
-                 (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm);
-    }
-    return out;
+    const MachineSettings& settings = machine_->settings;
+    return each(settings.axes, [&](unsigned k) {
+        return static_cast<double>(units[k]) / (static_cast<double>(units_per_count) * settings.axis[k].steps_per_mm);
+    });
 }
 
 // Within the segment under way, evenly.
@@ -63,9 +62,7 @@ PerAxis<double> SimTarget::now_mm() const noexcept {
         const PerAxis<double> end = mm_of(queue_.front().end);
         const auto passed = static_cast<double>(now_ticks() - time_ticks_);
         const double part = std::min(1.0, passed / static_cast<double>(queue_.front().duration_ticks));
-        for (const unsigned k : indices(machine_->settings.axes)) {
-            out[k] += part * (end[k] - out[k]);
-        }
+        add(out, part, difference(end, out, machine_->settings.axes), machine_->settings.axes);
     }
     return out;
 }

@@ -4,7 +4,7 @@
 #include "host_sim/config/decimal_number.hpp"
 #include "host_sim/program/left_out_list.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 

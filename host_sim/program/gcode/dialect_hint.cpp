@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/dialect_hint.hpp"
 
-#include "splinefeed/s0_program/code_table.hpp"
-#include "splinefeed/s0_program/decimal.hpp"
-#include "splinefeed/s0_program/decimal_text.hpp"
-#include "splinefeed/s0_program/dialect_rules.hpp"
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/dialects/code_table.hpp"
+#include "splinefeed/s0_program/dialects/dialect_rules.hpp"
+#include "splinefeed/s0_program/text/decimal.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <utility>
 

@@ -2,8 +2,8 @@
 // dialect_hint, option_advice: what a line means that is not as the dialect has it, and the option that helps.
 #pragma once
 
-#include "splinefeed/s0_program/program_errors.hpp"
-#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/dialects/program_settings.hpp"
+#include "splinefeed/s0_program/text/program_errors.hpp"
 
 #include <string_view>
 

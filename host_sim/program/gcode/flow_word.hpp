@@ -2,7 +2,7 @@
 // FlowWord: the O word of a line: sub, call, if, while, ...; M words that belong to subprograms.
 #pragma once
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <optional>
 #include <string>

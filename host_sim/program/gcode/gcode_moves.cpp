@@ -15,7 +15,7 @@
 #include "host_sim/program/problem_list.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -13,8 +13,8 @@ namespace {
 
 /// What the machine file lacks for an event; empty: nothing. No text: only the simulated machine knows the event.
 std::optional<std::string> missing_for(const ProgramEvent& event, const GcodeSettings& settings) {
-    static const ProgramLines none;
-    const ProgramLines& lines = settings.lines != nullptr ? *settings.lines : none;
+    static const ProgramPins none;
+    const ProgramPins& lines = settings.lines != nullptr ? *settings.lines : none;
     const auto unless = [&](std::string_view text) {
         return std::string(lines.has(event.kind, event.number) ? std::string_view() : text);
     };

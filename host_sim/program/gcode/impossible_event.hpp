@@ -4,7 +4,7 @@
 
 #include "host_sim/program/gcode_settings.hpp"
 
-#include "splinefeed/s0_program/program_event.hpp"
+#include "splinefeed/s0_program/words/program_event.hpp"
 
 #include <string>
 

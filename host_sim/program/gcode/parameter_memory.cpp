@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/parameter_memory.hpp"
 
-#include "splinefeed/s0_program/text_cursor.hpp"
+#include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 

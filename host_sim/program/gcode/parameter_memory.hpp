@@ -2,7 +2,7 @@
 // ParameterMemory: the parameters of a program, #1 to #5602 and #<name>.
 #pragma once
 
-#include "splinefeed/s0_program/parameter_table.hpp"
+#include "splinefeed/s0_program/text/parameter_table.hpp"
 
 #include <map>
 #include <string>

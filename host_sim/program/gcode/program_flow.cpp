@@ -3,7 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 
-#include "splinefeed/s0_program/program_errors.hpp"
+#include "splinefeed/s0_program/text/program_errors.hpp"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 #include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
-#include "splinefeed/s0_program/word_evaluator.hpp"
+#include "splinefeed/s0_program/text/word_evaluator.hpp"
 
 #include <deque>
 #include <map>

@@ -3,8 +3,8 @@
 
 #include "splinefeed/s1_blended_path/element_cast.hpp"
 
+#include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
-#include "splinefeed/s0_program/spline_points.hpp"
 
 namespace splinefeed::host {
 

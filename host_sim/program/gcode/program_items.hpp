@@ -6,7 +6,7 @@
 
 #include "splinefeed/s0_program/block_interpreter.hpp"
 #include "splinefeed/s0_program/expression.hpp"
-#include "splinefeed/s0_program/program_item.hpp"
+#include "splinefeed/s0_program/words/program_item.hpp"
 
 #include <memory>
 #include <optional>

@@ -2,8 +2,8 @@
 // SavedModes: the modes of a program as M70 and M73 save them, and the lines that put them back.
 #pragma once
 
-#include "splinefeed/s0_program/modal_state.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/words/modal_state.hpp"
+#include "splinefeed/s0_program/words/work_offsets.hpp"
 
 #include <string>
 #include <vector>

@@ -47,7 +47,7 @@ if ((status == 0)); then
     # The same program: only hal/gpio knows which libgpiod there is.
     mkdir "$work/objects" "$work/second"
     for source in hal/splinefeed/hal/gpio/*.cpp; do
-        if [[ $source != *lines_v1.cpp ]]; then
+        if [[ $source != *pins_v1.cpp ]]; then
             g++ -std=c++20 -O2 -DNDEBUG -ffp-contract=off -Ihal -Ifirmware_core -isystem $second/include -c "$source" \
                 -o "$work/objects/$(basename "$source").o"
         fi

@@ -25,9 +25,9 @@ void require(bool good, const char* what) {
 #ifdef GPIOD_LINE_BULK_MAX_LINES // version 1
 
 /// Lines of one chip; they are released with the process.
-class Lines {
+class Pins {
 public:
-    explicit Lines(const std::string& path) : chip_(gpiod_chip_open(path.c_str())) {
+    explicit Pins(const std::string& path) : chip_(gpiod_chip_open(path.c_str())) {
         require(chip_ != nullptr, "the chip does not open");
     }
     void request_outputs(const std::vector<unsigned>& offsets) {
@@ -62,9 +62,9 @@ private:
 #else
 
 /// Lines of one chip; they are released with the process.
-class Lines {
+class Pins {
 public:
-    explicit Lines(const std::string& path) : chip_(gpiod_chip_open(path.c_str())) {
+    explicit Pins(const std::string& path) : chip_(gpiod_chip_open(path.c_str())) {
         require(chip_ != nullptr, "the chip does not open");
     }
     void request_outputs(const std::vector<unsigned>& offsets) {
@@ -130,7 +130,7 @@ std::vector<Edge> read_edges(const std::string& path) {
 }
 
 /// Each edge at its instant, or as soon afterwards as the guest can.
-void play(Lines& lines, const std::vector<Edge>& edges) {
+void play(Pins& lines, const std::vector<Edge>& edges) {
     std::map<unsigned, int> used;
     for (const Edge& edge : edges) {
         used[edge.offset] = 0;
@@ -150,7 +150,7 @@ void play(Lines& lines, const std::vector<Edge>& edges) {
 
 int run(const std::vector<std::string>& words) {
     require(words.size() >= 4, "usage: toggle set|wait|play CHIP ...");
-    Lines lines(words[2]);
+    Pins lines(words[2]);
     if (words[1] == "set") { // OFFSET COUNT: so many edges
         const auto offset = static_cast<unsigned>(std::stoul(words[3]));
         lines.request_outputs({offset});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// ChipAccess, OutputAccess, InputAccess: the interface to libgpiod. lines_v1.cpp implements it with version 1.x,
-// lines_v2.cpp with 2.x. Internal to this folder.
+// ChipAccess, OutputAccess, InputAccess: the interface to libgpiod. pins_v1.cpp implements it with version 1.x,
+// pins_v2.cpp with 2.x. Internal to this folder.
 #pragma once
 
-#include "splinefeed/hal/gpio/line_lookup.hpp"
+#include "splinefeed/hal/gpio/pin_lookup.hpp"
 
 #include <memory>
 #include <optional>
@@ -14,7 +14,7 @@
 namespace splinefeed::hal::gpio {
 
 /// What the kernel reports about a line.
-struct LineFacts {
+struct PinFacts {
     std::string name;
     std::string consumer; ///< name that the user of the line gave; may be empty
     bool used = false;
@@ -29,7 +29,7 @@ public:
     ~ChipAccess();
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
-    [[nodiscard]] LineFacts facts(unsigned offset) const; ///< throws GpioError
+    [[nodiscard]] PinFacts facts(unsigned offset) const;  ///< throws GpioError
     [[nodiscard]] std::vector<std::string> names() const; ///< of all lines; throws GpioError
     [[nodiscard]] std::string label() const;              ///< throws GpioError
 
@@ -44,7 +44,7 @@ private:
 /// The offsets of the requested lines. Throws GpioError, as find_lines() does.
 template <class Request>
 [[nodiscard]] std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const Request> requests) {
-    std::vector<LineName> wanted;
+    std::vector<PinName> wanted;
     for (const Request& request : requests) {
         wanted.push_back(request.line);
     }
@@ -80,7 +80,7 @@ public:
     ~InputAccess();
 
     [[nodiscard]] std::optional<std::uint64_t> levels() noexcept;
-    /// As InputLines::wait, but events may be unsorted, and a signal gives -1 with EINTR.
+    /// As InputPins::wait, but events may be unsorted, and a signal gives -1 with EINTR.
     int wait(std::span<InputEvent> out, std::uint64_t timeout_ns) noexcept;
 
 private:

@@ -2,7 +2,7 @@
 // Error messages for chips and lines that cannot be opened or requested.
 #include "splinefeed/hal/base/device_access.hpp"
 #include "splinefeed/hal/gpio/chip_access.hpp"
-#include "splinefeed/hal/gpio/line_lookup.hpp"
+#include "splinefeed/hal/gpio/pin_lookup.hpp"
 
 #include <cerrno>
 #include <system_error>
@@ -40,7 +40,7 @@ void refuse_chip(const std::string& path, int error) {
 void refuse_lines(const ChipAccess& chip, std::span<const unsigned> offsets, const char* what, int error) {
     std::string lines;
     for (const unsigned offset : offsets) {
-        const LineFacts facts = chip.facts(offset);
+        const PinFacts facts = chip.facts(offset);
         if (error == EBUSY && facts.used) {
             throw GpioError(line_text(offset, facts.name) + " of " + chip.path() + " is in use by " +
                             (facts.consumer.empty() ? "an unnamed consumer" : "'" + facts.consumer + "'") +

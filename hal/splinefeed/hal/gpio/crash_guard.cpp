@@ -12,14 +12,14 @@ constexpr std::array crashes{SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT, SIGQUI
                              SIGSYS,  SIGTRAP, SIGPIPE, SIGALRM, SIGTERM, SIGINT,   SIGHUP,  SIGVTALRM,
                              SIGPROF, SIGPOLL, SIGPWR,  SIGUSR1, SIGUSR2, SIGSTKFLT};
 
-std::array<std::atomic<OutputLines*>, CrashGuard::most_chips> guarded{};
-static_assert(std::atomic<OutputLines*>::is_always_lock_free);
+std::array<std::atomic<OutputPins*>, CrashGuard::most_chips> guarded{};
+static_assert(std::atomic<OutputPins*>::is_always_lock_free);
 
 // The thread that writes edges may continue during this handler; its last writes end when the kernel releases the
 // lines.
 extern "C" void make_lines_safe(int signal) {
     for (auto& lines : guarded) {
-        if (OutputLines* const chip = lines.load(); chip != nullptr) {
+        if (OutputPins* const chip = lines.load(); chip != nullptr) {
             chip->make_safe();
         }
     }
@@ -42,7 +42,7 @@ void change_actions(void (*from)(int), void (*to)(int)) noexcept {
 
 } // namespace
 
-CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
+CrashGuard::CrashGuard(std::span<OutputPins* const> chips) noexcept {
     std::size_t given = 0;
     for (std::size_t i = 0; i < most_chips && given < chips.size(); ++i) {
         if (guarded[i].load() == nullptr) {

@@ -2,7 +2,7 @@
 // CrashGuard: sets output lines to their safe levels when the program crashes.
 #pragma once
 
-#include "splinefeed/hal/gpio/output_lines.hpp"
+#include "splinefeed/hal/gpio/output_pins.hpp"
 
 #include <array>
 #include <span>
@@ -17,13 +17,13 @@ public:
     static constexpr std::size_t most_chips = 16; ///< of all objects
 
     /// @param chips  must outlive the guard
-    explicit CrashGuard(std::span<OutputLines* const> chips) noexcept;
+    explicit CrashGuard(std::span<OutputPins* const> chips) noexcept;
     CrashGuard(const CrashGuard&) = delete;
     CrashGuard& operator=(const CrashGuard&) = delete;
     ~CrashGuard();
 
 private:
-    std::array<OutputLines*, most_chips> own_{}; // null: not this object's
+    std::array<OutputPins*, most_chips> own_{}; // null: not this object's
 };
 
 } // namespace splinefeed::hal::gpio

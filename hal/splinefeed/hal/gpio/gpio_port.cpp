@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/gpio_port.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::hal::gpio {
 
-GpioPort::GpioPort(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, Noted noted)
+GpioPort::GpioPort(const PinMap& map, const GpioPortSettings& settings, MachinePins& lines, Noted noted)
     : map_(&map), settings_(settings), time_(settings.step.clock != nullptr ? settings.step.clock : &system_clock()),
       lines_(&lines), noted_(std::move(noted)), port_(lines.outputs(), settings.step),
       inputs_(map, settings_, lines, port_), mover_(map, settings_, inputs_, port_), stops_(settings_, map, inputs_),
@@ -276,10 +278,7 @@ void GpioPort::touch(const std::optional<PerAxis<std::int64_t>>& counts) {
 }
 
 void GpioPort::take_changes() {
-    PerAxis<std::int64_t> counts{};
-    for (const unsigned k : indices(settings_.machine.axes)) {
-        counts[k] = port_.counts(static_cast<int>(k));
-    }
+    const auto counts = each(settings_.machine.axes, [&](unsigned k) { return port_.counts(static_cast<int>(k)); });
     stops_.follow(counts, time_->now_us());
     const bool contact = probe_ && inputs_.active(*probe_); // before its change, which then is there
     while (const auto change = inputs_.take()) {

@@ -38,7 +38,7 @@ public:
 
     /// Throws GpioError if inputs cannot be read. Map and lines must outlive it.
     /// @param noted  called by take_changes() for each change, with the place of the machine at its edge
-    GpioPort(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, Noted noted);
+    GpioPort(const PinMap& map, const GpioPortSettings& settings, MachinePins& lines, Noted noted);
     ~GpioPort();
 
     /// The drives were off, or are on and stand. What has stopped them stays until a reset; so does a limit on which a
@@ -103,10 +103,10 @@ private:
     [[nodiscard]] std::string still_on() const;
     [[nodiscard]] PerAxis<double> positions_at(const std::optional<PerAxis<std::int64_t>>& counts) const;
 
-    const LineMap* map_;
+    const PinMap* map_;
     GpioPortSettings settings_;
     Clock* time_;
-    MachineLines* lines_;
+    MachinePins* lines_;
     Noted noted_;
     GpioPhases phases_{gpio_phase_table, GpioPhase::fresh};
     StepPort port_;

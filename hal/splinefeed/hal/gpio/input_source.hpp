@@ -2,7 +2,7 @@
 // InputSource: interface to the input lines of a chip. Tests replace it.
 #pragma once
 
-#include "splinefeed/hal/gpio/line_request.hpp"
+#include "splinefeed/hal/gpio/pin_request.hpp"
 
 #include <optional>
 #include <span>

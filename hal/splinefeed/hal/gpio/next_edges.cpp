@@ -50,7 +50,7 @@ bool NextEdges::next(bool complete) noexcept {
     return intervals != nullptr ? next_of(*intervals) : next_of(*std::get_if<PulseTrain<FixedRate>>(&train_));
 }
 
-bool NextEdges::gather(LineChanges& lines, bool complete) noexcept {
+bool NextEdges::gather(PinChanges& lines, bool complete) noexcept {
     if (gathered_) {
         return true;
     }

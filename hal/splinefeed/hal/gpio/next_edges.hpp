@@ -2,7 +2,7 @@
 // NextEdges: feed segments in, the edges of the next instant out.
 #pragma once
 
-#include "splinefeed/hal/gpio/line_changes.hpp"
+#include "splinefeed/hal/gpio/pin_changes.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 #include "splinefeed/s5_pulse_train/any_pulse_train.hpp"
 
@@ -29,7 +29,7 @@ public:
     /// Collects all edges of the next instant, so that the lines change then without computation.
     /// @param complete  no segment comes behind those that were pushed before this was known
     /// Returns whether there are any; true again until made().
-    [[nodiscard]] bool gather(LineChanges& lines, bool complete) noexcept;
+    [[nodiscard]] bool gather(PinChanges& lines, bool complete) noexcept;
     void made() noexcept { gathered_ = false; }
     [[nodiscard]] bool gathered() const noexcept { return gathered_; }
     /// Motion time of the gathered edges. [ticks]

@@ -22,7 +22,7 @@ enum class Origin : std::uint8_t {
 class PortMover {
 public:
     /// All arguments must outlive it.
-    PortMover(const LineMap& map, const GpioPortSettings& settings, SwitchInputs& inputs, StepPort& port)
+    PortMover(const PinMap& map, const GpioPortSettings& settings, SwitchInputs& inputs, StepPort& port)
         : map_(&map), settings_(&settings), inputs_(&inputs), port_(&port),
           time_(settings.step.clock != nullptr ? settings.step.clock : &system_clock()) {}
 
@@ -77,7 +77,7 @@ private:
     void look(const std::optional<Until>& until, Moved& moved);
     [[nodiscard]] bool ends_move(std::size_t input, const std::optional<Until>& until) const noexcept;
 
-    const LineMap* map_;
+    const PinMap* map_;
     const GpioPortSettings* settings_;
     SwitchInputs* inputs_;
     StepPort* port_;

@@ -160,7 +160,7 @@ private:
     /// Motion time that is known. [ns]
     [[nodiscard]] std::uint64_t end_ns() const noexcept;
 
-    LineChanges lines_;
+    PinChanges lines_;
     StepPortSettings settings_;
     NextEdges edges_;
     EdgeClock clock_;

@@ -35,10 +35,10 @@ std::string mm_text(double mm) {
 }
 
 // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
-SwitchInputs::SwitchInputs(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, StepPort& port)
+SwitchInputs::SwitchInputs(const PinMap& map, const GpioPortSettings& settings, MachinePins& lines, StepPort& port)
     : map_(&map), settings_(&settings), lines_(&lines) {
     const int spins = settings.step.real_time.priority;
-    for (MachineLines::Inputs& inputs : lines.inputs()) {
+    for (MachinePins::Inputs& inputs : lines.inputs()) {
         std::vector<WatchedInput> watched;
         for (const std::size_t i : inputs.input) {
             const MappedInput& input = map.inputs[i];

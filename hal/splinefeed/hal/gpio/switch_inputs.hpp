@@ -4,7 +4,7 @@
 
 #include "splinefeed/hal/gpio/gpio_port_settings.hpp"
 #include "splinefeed/hal/gpio/input_watch.hpp"
-#include "splinefeed/hal/gpio/machine_lines.hpp"
+#include "splinefeed/hal/gpio/machine_pins.hpp"
 
 #include <initializer_list>
 #include <optional>
@@ -17,9 +17,9 @@ public:
 
     /// Watches from now on. An e-stop, or a chip whose inputs can no longer be read, disables the port. Throws
     /// GpioError if levels cannot be read. All arguments must outlive it.
-    SwitchInputs(const LineMap& map, const GpioPortSettings& settings, MachineLines& lines, StepPort& port);
+    SwitchInputs(const PinMap& map, const GpioPortSettings& settings, MachinePins& lines, StepPort& port);
 
-    /// The oldest change that was not taken yet; its input is an index in LineMap::inputs.
+    /// The oldest change that was not taken yet; its input is an index in PinMap::inputs.
     [[nodiscard]] std::optional<InputChange> take();
     [[nodiscard]] bool is(std::size_t input, InputRole role) const { return map_->inputs[input].role == role; }
     /// By its level. Where a change can be taken its level has become so, too.
@@ -44,9 +44,9 @@ private:
         std::unique_ptr<InputWatch> watch;
     };
 
-    const LineMap* map_;
+    const PinMap* map_;
     const GpioPortSettings* settings_;
-    MachineLines* lines_;
+    MachinePins* lines_;
     std::vector<Chip> watched_;
 };
 

@@ -17,7 +17,7 @@ namespace splinefeed::hal::gpio {
 class SwitchStops {
 public:
     /// All must outlive it.
-    SwitchStops(const GpioPortSettings& settings, const LineMap& map, const SwitchInputs& inputs)
+    SwitchStops(const GpioPortSettings& settings, const PinMap& map, const SwitchInputs& inputs)
         : settings_(&settings), map_(&map), inputs_(&inputs), leaving_(map.inputs.size()) {}
 
     /// Each millisecond. @param counts  of the port
@@ -49,7 +49,7 @@ private:
     void look(std::size_t input, bool active);
 
     const GpioPortSettings* settings_;
-    const LineMap* map_;
+    const PinMap* map_;
     const SwitchInputs* inputs_;
     std::array<Way, max_axes> way_{};
     std::vector<Leaving> leaving_; // as the inputs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/motion/straight_motion.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed::hal {
 
 namespace {
@@ -17,9 +19,7 @@ StraightMotion::StraightMotion(const MachineSettings& machine, const PerAxis<dou
     trajectory_ = *Trajectory<double>::make(line_, limits_, planner);
     const auto waypoint = [&](const PerAxis<double>& place) {
         Waypoint<double> point;
-        for (const unsigned k : indices(machine.axes)) {
-            point.position[k] = position_from_mm(place[k]);
-        }
+        point.position = position_from_mm(place, machine.axes);
         point.feed_mm_s = feed_mm_s;
         return point;
     };

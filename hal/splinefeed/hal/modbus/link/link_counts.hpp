@@ -2,7 +2,7 @@
 // LinkCounts: statistics of the exchanges with a drive.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 
 namespace splinefeed::hal::modbus {
 

@@ -3,12 +3,12 @@
 // classifies faults.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 
 namespace splinefeed::hal::modbus {
 
 /// For one thread at a time. Allocates in its constructor only.
-class ModbusLink final : public ModbusLine {
+class ModbusLink final : public ModbusWire {
 public:
     /// The clock must outlive the link.
     ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock = system_clock());

@@ -18,8 +18,8 @@ LinkTiming timing_of_module(const ModuleBusSettings& settings) {
 
 } // namespace
 
-ModuleBus::ModuleBus(const LinkAddress& wire, const ModuleBusSettings& settings, const MakeLine& make, Clock& clock)
-    : settings_(settings), clock_(&clock), wire_(wire), line_(make(wire, timing_of_module(settings), clock)) {}
+ModuleBus::ModuleBus(const LinkAddress& wire, const ModuleBusSettings& settings, const MakeWire& make, Clock& clock)
+    : settings_(settings), clock_(&clock), wire_(wire), link_(make(wire, timing_of_module(settings), clock)) {}
 
 ModuleBus::~ModuleBus() {
     if (thread_ == nullptr) {
@@ -57,16 +57,16 @@ std::size_t ModuleBus::add_input(ModuleBit bit) {
 }
 
 bool ModuleBus::connected() {
-    return line_->connected() || line_->connect();
+    return link_->connected() || link_->connect();
 }
 
 LinkAnswer ModuleBus::read(const ModuleBit& bit, bool& out) {
-    return connected() ? line_->read_bit(bit.unit, bit.table, bit.address, out)
+    return connected() ? link_->read_bit(bit.unit, bit.table, bit.address, out)
                        : LinkAnswer{.fault = LinkFault::disconnected};
 }
 
 LinkAnswer ModuleBus::write(const ModuleBit& bit, bool on) {
-    return connected() ? line_->write_coil(bit.unit, bit.address, on) : LinkAnswer{.fault = LinkFault::disconnected};
+    return connected() ? link_->write_coil(bit.unit, bit.address, on) : LinkAnswer{.fault = LinkFault::disconnected};
 }
 
 template <class Exchange>
@@ -75,7 +75,7 @@ std::string ModuleBus::try_out(const ModuleBit& bit, const Exchange& exchange) {
     for (int i = 0; i <= settings_.retries && !answer.ok() && !answer.refused(); ++i) {
         answer = exchange();
     }
-    return answer.ok() ? std::string() : bit.name + ": " + describe(answer, *line_);
+    return answer.ok() ? std::string() : bit.name + ": " + describe(answer, *link_);
 }
 
 std::string ModuleBus::open() {
@@ -169,19 +169,19 @@ bool ModuleBus::took(const ModuleBit& bit, const LinkAnswer& answer) {
         module.answered_us = now_us;
     }
     if (answer.refused()) {
-        fail(bit.name + ": " + describe(answer, *line_));
+        fail(bit.name + ": " + describe(answer, *link_));
     } else if (!answer.ok() && now_us > module.answered_us + us_per_ms * settings_.lost_ms) {
         fail(bit.name +
              (answer.fault == LinkFault::exception ? ": its module answers nothing but "
                                                    : ": its module does not answer: ") +
-             describe(answer, *line_));
+             describe(answer, *link_));
     }
     return answer.ok();
 }
 
 // It would wait for what the module may still answer, and other modules for that.
 bool ModuleBus::may_not_read(int unit) const {
-    return clock_->now_us() < line_->read_from_us(unit);
+    return clock_->now_us() < link_->read_from_us(unit);
 }
 
 void ModuleBus::work() {
@@ -189,7 +189,7 @@ void ModuleBus::work() {
         write_coils();
         read_watched();
         for (Module& module : modules_) {
-            const bool due = clock_->now_us() >= module.look_us || line_->owes_answer(module.unit);
+            const bool due = clock_->now_us() >= module.look_us || link_->owes_answer(module.unit);
             if (due && !may_not_read(module.unit)) {
                 look(module);
                 module.look_us = clock_->now_us() + us_per_ms * settings_.look_ms;

@@ -2,7 +2,7 @@
 // ModuleBus: I/O modules on one Modbus line, in a thread of its own: coils that are switched, and bits that are read.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 
 #include <atomic>
 #include <mutex>
@@ -35,7 +35,7 @@ struct ModuleBusSettings {
 /// All functions but add_... and open() may be called by any thread at any time, and return at once.
 class ModuleBus {
 public:
-    ModuleBus(const LinkAddress& wire, const ModuleBusSettings& settings, const MakeLine& make = make_link,
+    ModuleBus(const LinkAddress& wire, const ModuleBusSettings& settings, const MakeWire& make = make_link,
               Clock& clock = system_clock());
     ModuleBus(const ModuleBus&) = delete;
     ModuleBus& operator=(const ModuleBus&) = delete;
@@ -101,7 +101,7 @@ private:
     ModuleBusSettings settings_;
     Clock* clock_;
     LinkAddress wire_;
-    std::unique_ptr<ModbusLine> line_;
+    std::unique_ptr<ModbusWire> link_;
     std::vector<Module> modules_; // used by the thread
     std::vector<ModuleBit> inputs_;
 

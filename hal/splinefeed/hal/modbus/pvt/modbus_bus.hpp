@@ -10,14 +10,14 @@ namespace splinefeed::hal::modbus {
 /// may use the link.
 class ModbusBus {
 public:
-    explicit ModbusBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
+    explicit ModbusBus(std::unique_ptr<ModbusWire> link) : link_(std::move(link)) {}
     ModbusBus(const ModbusBus&) = delete;
     ModbusBus& operator=(const ModbusBus&) = delete;
     ~ModbusBus() { stop(); }
 
     /// Adds a drive. The reference stays valid. @pre not started
     PvtClient& add(int unit, bool both_in_one = true);
-    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
+    [[nodiscard]] ModbusWire& link() noexcept { return *link_; }
     [[nodiscard]] const std::vector<std::unique_ptr<PvtClient>>& drives() const noexcept { return drives_; }
 
     void start();
@@ -28,7 +28,7 @@ public:
 private:
     void run() noexcept;
 
-    std::unique_ptr<ModbusLine> link_;
+    std::unique_ptr<ModbusWire> link_;
     std::vector<std::unique_ptr<PvtClient>> drives_;
     std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};

@@ -40,7 +40,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
     const WireGroups groups = group_by_wire(uses, settings.timing);
     for (const WireUse& wire : groups.wires) {
         settings_.timing = settings_.timing.slower(wire.timing); // the slowest wire determines the waiting times
-        buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+        buses_.push_back(std::make_unique<ModbusBus>(settings.make_wire(wire.link, wire.timing, *settings.clock)));
     }
     for (const DriveWiring& drive : wiring) {
         ModbusBus& bus = *buses_[groups.of_drive[drives_.size()]];

@@ -19,7 +19,7 @@ struct ModbusPortSettings {
     bool (*interrupted)() = nullptr; ///< polled during homing; true: quick stop
     LinkTiming timing{};
     std::uint32_t first_sequence = 1; ///< sequence number of the first segment; 0 leaves no mark: placed()
-    MakeLine make_line = make_link;
+    MakeWire make_wire = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
 };
 

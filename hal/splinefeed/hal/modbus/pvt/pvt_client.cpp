@@ -25,7 +25,7 @@ ExchangeInstants instants_of(const LinkAnswer& answer) noexcept {
 
 } // namespace
 
-PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
+PvtClient::PvtClient(ModbusWire& link, int unit, bool both_in_one)
     : link_(&link), unit_(unit), queue_(queue_capacity), both_in_one_(both_in_one) {}
 
 DriveProblem PvtClient::open(int least_axes) noexcept {

@@ -3,7 +3,7 @@
 // once.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/pvt/drive_report.hpp"
 
 #include <atomic>
@@ -26,7 +26,7 @@ public:
 
     /// @param link  must outlive the client; shared with the other drives of the bus
     /// @param both_in_one  use function 23, and 16 with 03 if the drive refuses it; false: use 16 with 03
-    PvtClient(ModbusLine& link, int unit, bool both_in_one = true);
+    PvtClient(ModbusWire& link, int unit, bool both_in_one = true);
 
     /// Connects and checks the identity. As configure() and probe(): @pre the bus is not started
     [[nodiscard]] DriveProblem open(int least_axes) noexcept;
@@ -37,7 +37,7 @@ public:
     LinkAnswer probe() noexcept;
     [[nodiscard]] int axes() const noexcept { return axes_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
-    [[nodiscard]] const ModbusLine& link() const noexcept { return *link_; }
+    [[nodiscard]] const ModbusWire& link() const noexcept { return *link_; }
 
     // For the port's thread.
     /// Number of segments that push() accepts now. Executed segments make room.
@@ -87,7 +87,7 @@ private:
     bool reconnect(std::uint64_t now_us) noexcept;
     LinkAnswer exchange(std::span<const std::uint16_t> block, std::span<std::uint16_t> status) noexcept;
 
-    ModbusLine* link_;
+    ModbusWire* link_;
     int unit_;
     int axes_ = 0;
     std::vector<PvtSegment> queue_; // by sequence number, from executed to pushed

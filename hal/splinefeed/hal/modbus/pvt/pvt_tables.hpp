@@ -2,7 +2,7 @@
 // PvtTables: reads and writes the tables of a drive with the map splinefeed-pvt before a run, over a bad line, too.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/pvt/drive_report.hpp"
 
 namespace splinefeed::hal::modbus {
@@ -13,7 +13,7 @@ namespace splinefeed::hal::modbus {
 class PvtTables {
 public:
     /// @param report  counts the exchanges. Both must outlive this object.
-    PvtTables(ModbusLine& link, int unit, DriveReport& report) : link_(&link), unit_(unit), report_(&report) {}
+    PvtTables(ModbusWire& link, int unit, DriveReport& report) : link_(&link), unit_(unit), report_(&report) {}
 
     /// Reads at most pvt::identity_registers without a checksum of their own.
     /// @param refused  the problem that an exception as the answer means
@@ -30,7 +30,7 @@ private:
     [[nodiscard]] bool retry(const Attempt& attempt) noexcept;
     [[nodiscard]] DriveProblem no_answer(DriveProblem refused) const noexcept;
 
-    ModbusLine* link_;
+    ModbusWire* link_;
     int unit_;
     DriveReport* report_;
 };

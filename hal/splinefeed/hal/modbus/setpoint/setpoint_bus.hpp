@@ -65,14 +65,14 @@ public:
     /// A drive that was silent for longer may have been switched off and on. [us]
     static constexpr std::uint64_t restart_us = 1'000'000;
 
-    explicit SetpointBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
+    explicit SetpointBus(std::unique_ptr<ModbusWire> link) : link_(std::move(link)) {}
     SetpointBus(const SetpointBus&) = delete;
     SetpointBus& operator=(const SetpointBus&) = delete;
     ~SetpointBus() { stop(); }
 
     /// Adds a drive. References stay valid. @pre not started
     SetpointDrive& add(const DriveProfile& profile, int unit, double standstill_counts);
-    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
+    [[nodiscard]] ModbusWire& link() noexcept { return *link_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] SetpointDrive& drive(std::size_t i) noexcept { return drives_[i].drive; }
 
@@ -102,7 +102,7 @@ public:
 
 private:
     struct Slot {
-        Slot(const DriveProfile& profile, ModbusLine& link, int unit, double standstill_counts)
+        Slot(const DriveProfile& profile, ModbusWire& link, int unit, double standstill_counts)
             : drive(profile, link, unit), standstill(std::llround(standstill_counts * (1 << physical_bits))) {}
 
         SetpointDrive drive;
@@ -133,7 +133,7 @@ private:
     void read_statuses() noexcept;
     void run_period(SetpointMotion& motion, std::uint32_t period_us) noexcept;
 
-    std::unique_ptr<ModbusLine> link_;
+    std::unique_ptr<ModbusWire> link_;
     std::deque<Slot> drives_;
     mutable std::mutex mutex_; // guards the reports
     std::unique_ptr<ClockThread> thread_;

@@ -7,7 +7,7 @@
 
 namespace splinefeed::hal::modbus {
 
-SetpointDrive::SetpointDrive(const DriveProfile& profile, ModbusLine& link, int unit)
+SetpointDrive::SetpointDrive(const DriveProfile& profile, ModbusWire& link, int unit)
     : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
 
 std::string SetpointDrive::trouble(const char* what) const {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_counts.hpp"
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/setpoint/block_stream.hpp"
 #include "splinefeed/hal/modbus/setpoint/command_sequence.hpp"
 #include "splinefeed/hal/modbus/setpoint/cyclic_stream.hpp"
@@ -32,7 +32,7 @@ using CommandPause = std::function<bool(std::uint64_t until_us)>;
 class SetpointDrive {
 public:
     /// Profile and link must outlive the drive.
-    SetpointDrive(const DriveProfile& profile, ModbusLine& link, int unit);
+    SetpointDrive(const DriveProfile& profile, ModbusWire& link, int unit);
 
     /// Connects, checks the identity and reads the status. Returns what is wrong; empty: nothing.
     [[nodiscard]] std::string open();
@@ -108,7 +108,7 @@ public:
     [[nodiscard]] std::uint64_t position_us() const noexcept { return status_us_[status_.position_read()]; }
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
-    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
+    [[nodiscard]] ModbusWire& link() noexcept { return *link_; }
     /// "what: why the last exchange failed"
     [[nodiscard]] std::string trouble(const char* what) const;
 
@@ -121,7 +121,7 @@ private:
     [[nodiscard]] std::string check_identity();
 
     const DriveProfile* profile_;
-    ModbusLine* link_;
+    ModbusWire* link_;
     int unit_;
     StatusFrames status_;
     std::optional<BlockStream> block_;

@@ -31,7 +31,7 @@ SetpointGroup::SetpointGroup(const std::vector<SetpointWiring>& wiring, const Se
     }
     const WireGroups groups = group_by_wire(uses, settings.timing);
     for (const WireUse& wire : groups.wires) {
-        buses_.push_back(std::make_unique<SetpointBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+        buses_.push_back(std::make_unique<SetpointBus>(settings.make_wire(wire.link, wire.timing, *settings.clock)));
     }
     for (const SetpointWiring& drive : wiring) {
         Slot slot;

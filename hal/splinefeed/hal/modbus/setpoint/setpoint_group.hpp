@@ -17,7 +17,7 @@ struct SetpointPortSettings {
     std::uint32_t buffer_us = 300'000;  ///< motion that is buffered ahead
     std::uint32_t away_us = 5'000'000;  ///< a drive is offline for this long: the port goes to fault
     LinkTiming timing{};
-    MakeLine make_line = make_link;
+    MakeWire make_wire = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
 };
 

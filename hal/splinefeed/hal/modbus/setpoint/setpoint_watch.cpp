@@ -12,12 +12,12 @@ constexpr std::uint64_t unknown_us =
 
 } // namespace
 
-std::string silence(const LinkAnswer& last, const ModbusLine* line) {
+std::string silence(const LinkAnswer& last, const ModbusWire* wire) {
     return last.fault == LinkFault::exception
                ? std::string("it answers every request with the exception \"") + exception_name(last.exception) +
                      "\"; check its profile against its manual"
                : "it does not answer any more: " +
-                     (line != nullptr ? describe(last, *line) : std::string(describe(last.fault)));
+                     (wire != nullptr ? describe(last, *wire) : std::string(describe(last.fault)));
 }
 
 std::string fault_sentence(const DriveReading& reading) {

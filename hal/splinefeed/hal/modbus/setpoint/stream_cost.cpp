@@ -7,9 +7,9 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-class BusLine {
+class BusWire {
 public:
-    BusLine(const DriveProfile& profile, const LinkAddress& address) : profile_(profile), address_(address) {
+    BusWire(const DriveProfile& profile, const LinkAddress& address) : profile_(profile), address_(address) {
         int nearest = 0;
         for (const LinkSettings::Exchange& exchange : profile.link.exchanges) {
             if (address.wire == Wire::rtu && exchange.baud <= address.baud && exchange.baud > nearest) {
@@ -41,15 +41,15 @@ private:
 } // namespace
 
 StreamCost stream_cost(const DriveProfile& profile, const LinkAddress& address) noexcept {
-    const BusLine line(profile, address);
+    const BusWire wire(profile, address);
     StreamCost cost;
     const FieldGroup* const target = profile.group_for(GroupUse::target);
     const auto within = [](const FieldGroup* group, const RegisterField& field) {
         return group != nullptr && field.address >= group->address && field.address < group->address + group->registers;
     };
     const auto append = [&](std::size_t registers) {
-        cost.arrival_us = cost.target_us + line.arrival(registers);
-        cost.target_us += line.write(registers);
+        cost.arrival_us = cost.target_us + wire.arrival(registers);
+        cost.target_us += wire.write(registers);
     };
     if (target != nullptr) {
         append(target->registers);
@@ -62,8 +62,8 @@ StreamCost stream_cost(const DriveProfile& profile, const LinkAddress& address) 
         }
     }
     const auto add_read = [&](std::size_t registers) {
-        cost.status_us += line.read(registers);
-        cost.read_us = std::max(cost.read_us, line.read(registers));
+        cost.status_us += wire.read(registers);
+        cost.read_us = std::max(cost.read_us, wire.read(registers));
     };
     const FieldGroup* const status = profile.group_for(GroupUse::status);
     if (status != nullptr) {

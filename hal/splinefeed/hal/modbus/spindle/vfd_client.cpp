@@ -17,8 +17,8 @@ constexpr std::size_t most_registers = 4; // of a field
 
 } // namespace
 
-VfdClient::VfdClient(VfdWiring wiring, const MakeLine& make, Clock& clock)
-    : wiring_(std::move(wiring)), clock_(&clock), line_(make(wiring_.link, timing_of(wiring_.profile.link), clock)),
+VfdClient::VfdClient(VfdWiring wiring, const MakeWire& make, Clock& clock)
+    : wiring_(std::move(wiring)), clock_(&clock), link_(make(wiring_.link, timing_of(wiring_.profile.link), clock)),
       read_(wiring_.profile.fields.size()), speed_(wiring_.profile.index_of(FieldRole::target_velocity)),
       output_(wiring_.profile.index_of(FieldRole::actual_velocity)) {
     for (const RegisterField& field : wiring_.profile.fields) {
@@ -27,7 +27,7 @@ VfdClient::VfdClient(VfdWiring wiring, const MakeLine& make, Clock& clock)
 }
 
 bool VfdClient::connected() {
-    return line_->connected() || line_->connect();
+    return link_->connected() || link_->connect();
 }
 
 LinkAnswer VfdClient::write_raw(FieldIndex index, std::int64_t raw) {
@@ -39,8 +39,8 @@ LinkAnswer VfdClient::write_raw(FieldIndex index, std::int64_t raw) {
     put_raw(field, raw, registers);
     const int unit = wiring_.link.unit;
     const bool single = field.registers() == 1 && wiring_.profile.link.function_write_one;
-    const LinkAnswer answer = single ? line_->write_one(unit, field.address, registers[0])
-                                     : line_->write(unit, field.address, std::span(registers).first(field.registers()));
+    const LinkAnswer answer = single ? link_->write_one(unit, field.address, registers[0])
+                                     : link_->write(unit, field.address, std::span(registers).first(field.registers()));
     if (answer.ok()) {
         written_[index] = raw;
     }
@@ -54,7 +54,7 @@ LinkAnswer VfdClient::read_raw(FieldIndex index, std::int64_t& raw) {
     const RegisterField& field = wiring_.profile.fields[index];
     std::array<std::uint16_t, most_registers> registers{};
     const std::span<std::uint16_t> out = std::span(registers).first(field.registers());
-    const LinkAnswer answer = line_->read(wiring_.link.unit, field.address, out);
+    const LinkAnswer answer = link_->read(wiring_.link.unit, field.address, out);
     if (answer.ok()) {
         raw = take_raw(field, out);
     }
@@ -84,7 +84,7 @@ LinkAnswer VfdClient::command(DriveCommand command) {
 }
 
 bool VfdClient::may_read() const {
-    return clock_->now_us() >= line_->read_from_us(wiring_.link.unit);
+    return clock_->now_us() >= link_->read_from_us(wiring_.link.unit);
 }
 
 // Several tests may be of one field: it is read once.

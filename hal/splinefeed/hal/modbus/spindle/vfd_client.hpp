@@ -2,7 +2,7 @@
 // VfdClient: the exchanges with a frequency inverter (VFD), by its profile.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <optional>
@@ -28,7 +28,7 @@ struct VfdReading {
 /// lost is opened again by the next call.
 class VfdClient {
 public:
-    VfdClient(VfdWiring wiring, const MakeLine& make, Clock& clock);
+    VfdClient(VfdWiring wiring, const MakeWire& make, Clock& clock);
 
     /// Writes the speed, for the next run command or while it runs. [Hz]
     [[nodiscard]] LinkAnswer write_speed(double hz);
@@ -36,14 +36,14 @@ public:
     [[nodiscard]] LinkAnswer command(DriveCommand command);
     /// Reads output frequency, state and fault.
     [[nodiscard]] LinkAnswer read(VfdReading& out);
-    /// Whether a reading would be sent at once: ModbusLine::read_from_us().
+    /// Whether a reading would be sent at once: ModbusWire::read_from_us().
     [[nodiscard]] bool may_read() const;
 
     /// Speed that the register can hold, next to this one. [Hz]
     [[nodiscard]] double nearest_hz(double hz) const;
     [[nodiscard]] const DriveProfile& profile() const noexcept { return wiring_.profile; }
     /// Text for messages: what went wrong with an exchange.
-    [[nodiscard]] std::string describe(const LinkAnswer& answer) const { return modbus::describe(answer, *line_); }
+    [[nodiscard]] std::string describe(const LinkAnswer& answer) const { return modbus::describe(answer, *link_); }
 
 private:
     [[nodiscard]] bool connected();
@@ -53,7 +53,7 @@ private:
 
     VfdWiring wiring_;
     Clock* clock_;
-    std::unique_ptr<ModbusLine> line_;
+    std::unique_ptr<ModbusWire> link_;
     std::vector<std::int64_t> written_;             // the last value of each field
     std::vector<std::optional<std::int64_t>> read_; // of the present reading
     FieldIndex speed_;

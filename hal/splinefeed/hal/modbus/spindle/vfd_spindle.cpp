@@ -26,7 +26,7 @@ std::string number(double value) {
 
 } // namespace
 
-VfdSpindle::VfdSpindle(VfdWiring wiring, const VfdSpindleSettings& settings, const MakeLine& make, Clock& clock)
+VfdSpindle::VfdSpindle(VfdWiring wiring, const VfdSpindleSettings& settings, const MakeWire& make, Clock& clock)
     : settings_(settings), clock_(&clock), client_(std::move(wiring), make, clock) {}
 
 VfdSpindle::~VfdSpindle() {

@@ -29,7 +29,7 @@ struct VfdSpindleSettings {
 /// All functions but open() may be called by any thread at any time.
 class VfdSpindle {
 public:
-    VfdSpindle(VfdWiring wiring, const VfdSpindleSettings& settings, const MakeLine& make = make_link,
+    VfdSpindle(VfdWiring wiring, const VfdSpindleSettings& settings, const MakeWire& make = make_link,
                Clock& clock = system_clock());
     VfdSpindle(const VfdSpindle&) = delete;
     VfdSpindle& operator=(const VfdSpindle&) = delete;

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/words/block_reader.hpp"
+#include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/words/axis_letters.hpp"
+#include "splinefeed/s0_program/words/modal_state.hpp"
+
+#include <algorithm>
+
+namespace splinefeed {
+
+using namespace std::string_view_literals; // without strlen
+
+namespace {
+
+constexpr std::uint32_t coordinate_bits = Block::bits("xyzabcuvwijkrf");
+
+constexpr bool is_letter(char c) noexcept {
+    return c >= 'a' && c <= 'z';
+}
+
+constexpr bool is_part_of_number(char c) noexcept {
+    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
+}
+
+// "2.4e-16", with the cursor at the e: no control reads the two as one number, and nobody means two words.
+constexpr bool is_exponent(const TextCursor& text) noexcept {
+    TextCursor next = text;
+    next.step();
+    const std::size_t at = text.at();
+    return text.peek() == 'e' && at > 0 && is_part_of_number(text.text()[at - 1]) && next.at() == at + 1 &&
+           is_part_of_number(next.peek()) && next.peek() != '.';
+}
+
+} // namespace
+
+bool BlockReader::has_axes(const Block& block) const noexcept {
+    for (int k = 0; k < settings_->axes; ++k) {
+        if (block.has(lower_case(settings_->letters[static_cast<unsigned>(k)]))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether the block does something besides the word that is ignored.
+bool BlockReader::has_others(const Block& block) const noexcept {
+    return has_axes(block) || block.has_codes();
+}
+
+// The words of codes that are left out go with them, if no other word takes them.
+void BlockReader::leave_axes_out(Block& out) const noexcept {
+    const std::int16_t modeless = out.code(CodeGroup::non_modal);
+    const bool taken = modeless != Block::no_code && modeless != 40 && modeless != 530;
+    if (left_out_.axes && !taken && !out.has(CodeGroup::motion)) {
+        out.keep(Block::bits("fst"));
+    }
+    if (left_out_.motion && !out.has(CodeGroup::motion)) { // later axis words are not those of the motion before
+        out.set_code(CodeGroup::motion, ModalState::no_motion, 1);
+    }
+    if (left_out_.code) {
+        out.set_left_out();
+    }
+}
+
+BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& control, Block& out,
+                              LineKind& kind) noexcept {
+    out.clear();
+    kind = LineKind::block;
+    left_out_ = {};
+    has_command_ = false;
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.remove_suffix(1);
+    }
+    if (text.size() > longest_line) {
+        return {ProgramError::line_too_long, 0, longest_line + 1};
+    }
+    TextCursor cursor(text);
+    if (cursor.take('%')) {
+        kind = LineKind::percent;
+        return cursor.at_end() ? BlockStatus{} : BlockStatus{ProgramError::character_invalid, 1, cursor.column()};
+    }
+    if (rules_->dollar_lines && cursor.peek() == '$') {
+        const std::uint16_t column = cursor.column();
+        kind = LineKind::homing;
+        const bool homing = cursor.take("$h"sv) && cursor.at_end();
+        return homing ? BlockStatus{} : BlockStatus{ProgramError::grbl_command_unsupported, 0, column};
+    }
+    if (cursor.take('/') && settings_->block_delete) {
+        kind = LineKind::left_out;
+        return {};
+    }
+    const ProgramStatus status = read_words(cursor, control, out);
+    if (!status.ok()) {
+        read_rest(cursor, control, out);
+    }
+    const std::int16_t modeless = out.code(CodeGroup::non_modal);
+    out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & AxisLetters(*settings_).bits() : 0U)); // G28 X W
+    leave_axes_out(out);
+    const bool no_shift = left_out_.word && !has_axes(out) && modeless == 920; // a printer's G92 E0 without E
+    // The words of a code that is left out are not another code's, whatever they are.
+    if (left_out_.command || no_shift || (left_out_.code && !has_others(out))) {
+        kind = LineKind::left_out;
+        return {};
+    }
+    return status.ok() ? BlockStatus{} : BlockStatus{status.error(), 0, cursor.column()};
+}
+
+ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+    while (!text.at_end() && text.peek() != ';') {
+        if (text.peek() == '*' && rules_->checksums) {
+            return read_checksum(text);
+        }
+        if (const ProgramStatus status = read_part(text, control, out); !status.ok()) {
+            return status;
+        }
+        const std::int16_t printer = out.code(CodeGroup::printer);
+        const bool pauses = rules_->one_command && out.has(CodeGroup::stop); // M0 S5 Click to go on
+        if (printer == 117) {
+            out.set_comment(CommentKind::none, TextCursor::place(text.at(), text.find(';', text.at())));
+            return {};
+        }
+        if (printer != Block::no_code || left_out_.command || pauses) {
+            read_free_words(text, out);
+            out.keep(pauses ? Block::bits("s") : ~0U);
+        }
+    }
+    return {};
+}
+
+// A word, a comment or an assignment.
+ProgramStatus BlockReader::read_part(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+    const char c = text.peek();
+    if (c == '(') {
+        return read_comment(text, out);
+    }
+    if (c == '#') {
+        return evaluator_ != nullptr ? evaluator_->assignment(text, control)
+                                     : ProgramStatus(ProgramError::expression_unsupported);
+    }
+    const bool is_polar = c == '@' || c == '^';
+    if (is_letter(c) || (is_polar && rules_->polar_words)) {
+        return read_word(text, control, out);
+    }
+    return is_polar ? ProgramError::polar_unsupported : ProgramError::character_invalid;
+}
+
+// Behind a word that is wrong: whoever looks for all errors wants to know what the others do.
+void BlockReader::read_rest(TextCursor text, const BlockInterpreter& control, Block& out) noexcept {
+    while (!text.at_end() && text.peek() != ';') {
+        text.step();
+        while (is_part_of_number(text.peek())) {
+            text.step();
+        }
+        while (is_letter(text.peek())) {
+            TextCursor word = text;
+            if (!read_word(word, control, out).ok()) {
+                break;
+            }
+            text = word;
+        }
+        if (text.peek() == '#' || text.peek() == '[') {
+            return;
+        }
+    }
+}
+
+// The words of a printer's M word are its own. What is no number is passed over, as in M115 U3.8.1 and P "MK3".
+void BlockReader::read_free_words(TextCursor& text, Block& out) const noexcept {
+    while (!text.at_end() && text.peek() != ';' && !(text.peek() == '*' && rules_->checksums)) {
+        const char letter = text.peek();
+        if (letter == '"') {
+            text.go_to(text.find('"', text.at() + 1));
+        }
+        const std::size_t column = text.column();
+        text.step();
+        Decimal value;
+        TextCursor number = text;
+        if (is_letter(letter) && read_decimal(number, value).ok()) {
+            text = number;
+            if (!out.has(letter)) {
+                out.set(letter, value, column);
+            }
+        }
+    }
+}
+
+// Whether a letter has no number, where that is a word. SIN[ is none.
+bool BlockReader::is_bare(const TextCursor& text) const noexcept {
+    TextCursor cursor = text;
+    if (!rules_->bare_letters || (!cursor.at_end() && !is_letter(cursor.peek()) && cursor.peek() != ';' &&
+                                  cursor.peek() != '*' && cursor.peek() != '(')) {
+        return false;
+    }
+    while (is_letter(cursor.peek())) {
+        cursor.step();
+    }
+    return cursor.peek() != '[';
+}
+
+ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+    const std::size_t column = text.column();
+    const char letter = text.peek();
+    if (letter == 'o' && !rules_->bare_letters) {
+        return ProgramError::o_word;
+    }
+    const TextCursor word = text;
+    text.step();
+    Decimal value;
+    const char first = text.peek();
+    if (letter != 'g' && letter != 'm' && is_bare(text)) {
+        left_out_.bare |= Block::letter_bit(letter);
+        if (!out.has(letter)) {
+            out.set(letter, {}, column);
+        }
+        return {};
+    }
+    if (const ProgramStatus status = read_value(text, control, value); !status.ok()) {
+        if (first != '#' && first != '[' && !is_letter(first)) {
+            text = word; // a plain number: the word is wrong; else the place within the expression is
+        }
+        if (letter == 'f' && !out.has(letter)) {
+            out.set(letter, {}, column); // it was stated
+        }
+        return status;
+    }
+    const std::string_view as_it_stands = text.part(word.at(), text.at());
+    if (!rules_->extruder && (Block::letter_bit(letter) & coordinate_bits) != 0 && is_exponent(text)) {
+        text = word;
+        return ProgramError::number_has_exponent;
+    }
+    if (letter == 'n' && out.has(letter)) {
+        return {}; // the first one counts
+    }
+    if (letter == 'g' || letter == 'm') {
+        bool left_out = false;
+        const ProgramStatus status = add_code(letter, value, column, out, left_out);
+        if (!status.ok()) {
+            text = word; // the word is wrong, not what follows it
+        }
+        if (left_out) {
+            note(as_it_stands);
+        }
+        return status;
+    }
+    if (is_ignored(upper_case(letter), value)) {
+        left_out_.word = true;
+        note(as_it_stands);
+        return {};
+    }
+    if (out.has(letter)) {
+        text = word;
+        return ProgramError::word_repeated;
+    }
+    out.set(letter, value, column);
+    if (first != '#' && first != '[' && std::ranges::count(as_it_stands, '.') == 0) {
+        out.set_whole(letter);
+    }
+    return {};
+}
+
+void BlockReader::note(std::string_view word) const noexcept {
+    while (!word.empty() && (word.back() == ' ' || word.back() == '\t')) {
+        word.remove_suffix(1);
+    }
+    if (settings_->left_out != nullptr) {
+        settings_->left_out->add(word);
+    }
+}
+
+ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+    const char c = text.peek();
+    const bool sign = c == '-' || c == '+';
+    const char first = sign ? text.peek_second() : c;
+    if (first != '#' && first != '[' && !is_letter(first)) {
+        return read_decimal(text, out);
+    }
+    if (evaluator_ == nullptr) {
+        return is_letter(first) ? ProgramError::number_invalid : ProgramError::expression_unsupported;
+    }
+    if (sign) {
+        text.step();
+    }
+    const TextCursor start = text;
+    ProgramStatus status = evaluator_->value(text, control, out);
+    if (status.ok() && (out.raw > largest_number * Decimal::one || out.raw < -largest_number * Decimal::one)) {
+        text = start;
+        status = ProgramError::number_out_of_range;
+    }
+    out = c == '-' ? -out : out;
+    return status;
+}
+
+ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out,
+                                    bool& left_out) noexcept {
+    const bool is_g = letter == 'g';
+    std::int32_t code = 0;
+    CodeInfo info{CodeGroup::none, is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown};
+    if (value.raw >= 0 && value <= Decimal::from_integer(is_g ? 1000 : 10000) &&
+        to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
+        const CodeInfo found = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+        info = found.group != CodeGroup::none || found.refusal != ProgramError::none ? found : info;
+    }
+    const bool is_first = !has_command_;
+    has_command_ = true;
+    const bool is_unknown =
+        info.refusal == ProgramError::g_code_unknown || info.refusal == ProgramError::m_code_unknown ||
+        info.refusal == ProgramError::user_code_unsupported || info.refusal == ProgramError::not_in_dialect;
+    if (rules_->one_command && !is_g && (!is_first || (is_unknown && rules_->skips_unknown))) {
+        left_out_.command = left_out_.command || is_first;
+        left_out = true;
+        return {};
+    }
+    if (is_ignored(upper_case(letter), value) || (is_unknown && settings_->ignores_unknown)) {
+        const bool is_modal = info.group == CodeGroup::motion && code != ModalState::no_motion;
+        const bool takes_axes = info.group == CodeGroup::non_modal && code != 40 && code != 530;
+        left_out_.code = left_out = true;
+        left_out_.motion = left_out_.motion || is_modal;
+        left_out_.axes = left_out_.axes || is_modal || takes_axes || (is_g && is_unknown) || (is_g && code == 431);
+        return {};
+    }
+    if (info.refusal != ProgramError::none) {
+        if (info.group == CodeGroup::motion) {
+            out.set_code(info.group, ModalState::lost_motion, column);
+        }
+        return info.refusal;
+    }
+    if (info.group == CodeGroup::motion && out.has(info.group) &&
+        (code == ModalState::no_motion ||
+         out.code(info.group) == ModalState::no_motion)) { // G80 beside another motion ends cycles only
+        if (code == ModalState::no_motion) {
+            return {};
+        }
+    } else if (out.has(info.group) && info.group != CodeGroup::without_effect) {
+        return ProgramError::modal_group_conflict;
+    }
+    out.set_code(info.group, code, column);
+    return {};
+}
+
+ProgramStatus BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
+    const std::string_view line = text.text();
+    const std::size_t begin = text.at() + 1;
+    std::size_t end = begin;
+    while (end < line.size() && line[end] != ')') {
+        if (line[end] == '(' && !rules_->open_comments) {
+            text.go_to(end);
+            return ProgramError::comment_nested;
+        }
+        ++end;
+    }
+    if (end == line.size() && !rules_->open_comments) {
+        return ProgramError::comment_not_closed;
+    }
+    TextCursor inside(text.part(begin, end));
+    CommentKind kind = CommentKind::none;
+    if (inside.take("msg,"sv)) {
+        kind = CommentKind::message;
+    } else if (inside.take("print,"sv)) {
+        kind = CommentKind::print;
+    } else if (inside.take("debug,"sv)) {
+        kind = CommentKind::debug;
+    }
+    if (kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
+        out.set_comment(kind, TextCursor::place(begin + inside.at(), end));
+    }
+    text.go_to(end + 1);
+    return {};
+}
+
+// "*71": the exclusive or of all characters before it.
+ProgramStatus BlockReader::read_checksum(TextCursor& text) noexcept {
+    unsigned sum = 0;
+    for (const char c : text.part(0, text.at())) {
+        sum ^= static_cast<unsigned char>(c);
+    }
+    const TextCursor start = text;
+    text.step();
+    Decimal stated;
+    std::int32_t number = 0;
+    const ProgramStatus status = read_decimal(text, stated);
+    if (!status.ok() || !to_integer(stated, number) || number != static_cast<std::int32_t>(sum)) {
+        text = start;
+        return ProgramError::checksum_wrong;
+    }
+    return text.at_end() || text.peek() == ';' ? ProgramStatus{} : ProgramStatus(ProgramError::character_invalid);
+}
+
+bool BlockReader::is_ignored(char letter, Decimal value) const noexcept {
+    for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
+        const IgnoredWord& word = settings_->ignored[i];
+        if (word.letter == letter &&
+            (word.tenths == IgnoredWord::any || value.raw == word.tenths * (Decimal::one / 10))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace splinefeed
