@@ -58,7 +58,7 @@ bool ElementFeeder::take(Pushed& pushed) {
         return true;
     }
     const bool moves = step_.kind == StepKind::move;
-    behind_ = moves || step_.stops ? 0 : behind_ + 1;
+    behind_ = moves || step_.stops ? 0 : behind_ % most_behind + 1;
     pushed.stops = step_.stops || behind_ == most_behind;
     if (pushed.stops && !(moves || !step_.stops ? stream_->rest() : stream_->stop())) {
         throw program_->refusal(step_, describe(Error::no_room));

@@ -6,8 +6,8 @@
 
 namespace splinefeed {
 
-/// What rounding may take a point off a line of this length: 0.24 nm, half a unit of seven decimals on either side, and
-/// some digits of it; at most a nanometre, but in float. In chord units.
+/// What rounding may take a point off a line of this length, in chord units: 0.24 nm and some digits of it. The former
+/// is half a unit of seven decimals on either side. At most a nanometre, but in float.
 template <Scalar S>
 [[nodiscard]] S line_rounding(S length) noexcept {
     const S least = literal<S>(0x1p-10);

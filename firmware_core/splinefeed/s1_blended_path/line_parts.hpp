@@ -18,8 +18,8 @@ struct LinePart {
     std::uint32_t element = 0; ///< number of the line among all that is passed on, modulo 2^32
 };
 
-/// A ring of them in the order of the path. Whether more fit follows from what was programmed, not from when it
-/// was asked for: a place is free as soon as so many elements came behind it that it must have been passed.
+/// A ring of them in the order of the path. Whether more fit follows from what was programmed, not from when it was
+/// asked for. A place is free as soon as so many elements came behind it that it must have been passed.
 /// Memory: 32 bytes for each with three axes.
 class LineParts {
 public:
