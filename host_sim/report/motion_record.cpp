@@ -38,10 +38,10 @@ int height_axis(const MachineDescription& machine) {
 } // namespace
 
 MotionRecord::MotionRecord(const MachineDescription& machine, std::uint32_t segment_ticks)
-    : machine_(&machine), axes_(static_cast<unsigned>(machine.settings.axes)), height_(height_axis(machine)),
-      values_(1 + 3 * std::size_t{axes_}), strips_(values_.size(), segment_ticks),
+    : machine_(&machine), axes_(machine.settings.axes), height_(height_axis(machine)),
+      values_(1 + 3 * static_cast<std::size_t>(axes_)), strips_(values_.size(), segment_ticks),
       path_(machine.settings.axes, most_points), programmed_(machine.settings.axes, most_programmed) {
-    for (unsigned k = 0; k < axes_; ++k) {
+    for (const unsigned k : indices(axes_)) {
         const AxisSettings& axis = machine.settings.axis[k];
         factors_[k] = {1.0 / (static_cast<double>(units_per_count) * axis.steps_per_mm),
                        inverse(axis.max_velocity_mm_s),
@@ -69,7 +69,7 @@ void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64
     rows_.push_back({line, rapid, move.mode == PathMode::exact_stop, move.stop_at_end});
     ThinnedPath::Point point{.line = line,
                              .kind = static_cast<std::uint8_t>(rapid ? PieceKind::rapid : PieceKind::feed)};
-    const PathStrand strand(here_, move, static_cast<int>(axes_));
+    const PathStrand strand(here_, move, axes_);
     PerAxis<double> before = to_mm(here_, axes_);
     for (int i = 1; i <= strand.parts(); ++i) {
         point.position = strand.at(static_cast<double>(i) / strand.parts());
@@ -125,7 +125,7 @@ void MotionRecord::come_to(std::uint64_t row, std::uint64_t line, bool is_move) 
 
 PerAxis<double> MotionRecord::place(const FeedSegment& segment, double u) const {
     PerAxis<double> out{};
-    for (unsigned k = 0; k < axes_; ++k) {
+    for (const unsigned k : indices(axes_)) {
         const auto start = static_cast<double>(segment.start[k]);
         const auto way = static_cast<double>(segment.end[k] - segment.start[k]);
         const auto m0 = static_cast<double>(segment.start_velocity[k]);
@@ -141,7 +141,7 @@ void MotionRecord::measure(const FeedSegment& segment, double seconds) {
     double speed_sq[3] = {}; // at the begin, in the middle, at the end
     double turning_sq[3] = {};
     acceleration_ = jerk_ = 0.0F;
-    for (unsigned k = 0; k < axes_; ++k) {
+    for (const unsigned k : indices(axes_)) {
         const AxisFactors& of = factors_[k];
         const SegmentCubic cubic(segment, k, 1.0 / of.mm_per_unit, seconds);
         const double velocity[3] = {cubic.velocity(0.0), cubic.velocity(0.5), cubic.velocity(1.0)};
@@ -185,7 +185,7 @@ void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) 
     measure(segment, seconds);
     double way_sq = 0.0;
     PerAxis<double> way{};
-    for (unsigned k = 0; k < axes_; ++k) {
+    for (const unsigned k : indices(axes_)) {
         way[k] = static_cast<double>(segment.end[k] - segment.start[k]) * factors_[k].mm_per_unit;
         way_sq += way[k] * way[k];
     }
@@ -315,7 +315,7 @@ void MotionRecord::finish() {
         high.fill(-1e300);
         double size = 0.0;
         for (const ThinnedPath::Point& point : path->points()) {
-            for (unsigned k = 0; k < axes_; ++k) {
+            for (const unsigned k : indices(axes_)) {
                 low[k] = std::min(low[k], point.position[k]);
                 high[k] = std::max(high[k], point.position[k]);
                 size = std::max(size, high[k] - low[k]);

@@ -135,7 +135,7 @@ private:
     [[nodiscard]] PerAxis<double> place(const FeedSegment& segment, double u) const;
 
     const MachineDescription* machine_;
-    unsigned axes_;
+    int axes_;
     int height_; // the axis that layers rise along; -1: none
     PerAxis<AxisFactors> factors_{};
     std::vector<TimeStrips::Range> values_; // of the segment: one for each strip

@@ -22,8 +22,7 @@ STRAIGHT = 1.01  # of seven phases, and what sampling costs
 KNOWN_SHORT = {30: 1.065, 1019: 1.082, 1186: 1.157, 1259: 1.075, 1276: 1.243, 2656: 1.07, 2821: 1.056}
 STRAIGHT_SHORT = {9: 1.013}
 STRAIGHT_REFUSED = {31}  # the rounding of positions alone is a third of its jerk limit
-MONOTONE_SHORT = {3: 1.01, 15: 1.01, 27: 1.013, 43: 1.095, 51: 1.014, 55: 1.02, 59: 1.085, 83: 1.01, 87: 1.02, 92: 1.021, 95: 1.008, 99: 1.022, 1088: 1.006, 1123: 1.005,
-                  1360: 1.035, 1384: 1.027}
+MONOTONE_SHORT = {92: 1.021, 1123: 1.005, 1360: 1.035, 1384: 1.027}
 
 
 def known_ratios(tool, motion, folder):

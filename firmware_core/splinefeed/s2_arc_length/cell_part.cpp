@@ -65,8 +65,8 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
         }
         shape.error_bound = shape.error_bound * share;
     }
-    // inverse[i] belongs to x^(i+1). With l and omega as above omega = xi + ((l - width) xi + deviation / 4) / width, and 1
-    // at its end.
+    // inverse[i] belongs to x^(i+1). With l and omega as above omega = xi + ((l - width) xi + deviation / 4) / width,
+    // and 1 at its end.
     std::array<R, 7> deviation{};
     for (std::size_t i = 0; i < 6; ++i) {
         deviation[i + 1] = cell.inverse[i];
