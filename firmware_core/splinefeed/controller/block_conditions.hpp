@@ -20,7 +20,7 @@ public:
     /// @param control   its parameters may be named
     /// @param executes  whether the line is to be executed; it is not if it is such a word
     /// Errors: o_word, condition_not_open, conditions_too_deep, those of the expression.
-    BlockStatus take(std::string_view text, WordEvaluator& values, const BlockInterpreter& control,
+    BlockStatus take(std::string_view line, WordEvaluator& values, const BlockInterpreter& control,
                      bool& executes) noexcept;
     void clear() noexcept { count_ = 0; }
 

@@ -2,6 +2,7 @@
 // LineParts: where the moves of a line end that was programmed as several.
 #pragma once
 
+#include "splinefeed/base/capacity.hpp"
 #include "splinefeed/number/position.hpp"
 
 /// So many places of LineParts. With less than 288 not all lines of many moves are one.

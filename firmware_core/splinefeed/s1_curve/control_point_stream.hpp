@@ -39,7 +39,7 @@ template <Scalar S>
 struct PlainJoints {
     static constexpr bool weighted = false;
     [[nodiscard]] static constexpr bool by_spans() noexcept { return true; }
-    [[nodiscard]] static constexpr S tension(S) noexcept { return S{}; }
+    [[nodiscard]] static constexpr S tension(S /*spacing*/) noexcept { return S{}; }
     [[nodiscard]] static SpansAround<S> around(S outer_before, S before, S after, S outer_after) noexcept {
         return {outer_before, before, after, outer_after, S{}};
     }

@@ -270,7 +270,7 @@ auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRo
                 }
                 continue;
             }
-            const S excess = out.low == S{} ? of_point : of_point + quarter_product(out.low, exit);
+            const S excess = of_point + quarter_product(out.low, exit);
             if (excess > S{} && out.low < beyond) {
                 const S step = exit < R{} ? smaller(quotient_by_quarter(excess, -exit), beyond) : beyond;
                 out.low = smaller(out.low + step, beyond);
@@ -315,10 +315,10 @@ void AccelerationBound<S>::approach_peak(const CapLine<S>& cap, PeakSpeeds<S>& p
             peak = {};
             return;
         }
-        const Row& first = any ? exits.above : exits.below;
-        const Row& second = exits.steep < exits.high ? exits.beside : exits.above;
+        const Row& one = any ? exits.above : exits.below;
+        const Row& other = exits.steep < exits.high ? exits.beside : exits.above;
         const S crossing =
-            absolute(first.exit) < absolute(second.exit) ? crossing_of(first, second) : crossing_of(second, first);
+            absolute(one.exit) < absolute(other.exit) ? crossing_of(one, other) : crossing_of(other, one);
         if (crossing < entry) {
             entry = larger(crossing, S{});
         } else { // the same pair again: rounding, which nearly parallel lines magnify
