@@ -133,6 +133,13 @@ void write_sentences(Lines out, const Summary& summary) {
         write_use_sentence(out, use.axis, "acceleration", use.acceleration);
         write_use_sentence(out, use.axis, "jerk", use.jerk.value_or(0.0));
     }
+    const auto most = std::ranges::max_element(summary.limit_use, {}, &Summary::AxisUse::jerk_reserved);
+    if (most != summary.limit_use.end() && most->jerk_reserved.value_or(0.0) > 0.01) {
+        fmt::format_to(out,
+                       "At this sample period {:.2g} % of the jerk limit of {} is kept for rounding: a longer one "
+                       "keeps less.\n",
+                       100.0 * *most->jerk_reserved, most->axis);
+    }
     if (summary.window_limited.value_or(0) > 0) {
         fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
                        plural(*summary.window_limited, "time"));

@@ -53,7 +53,8 @@ struct Summary {
         std::string axis;
         double velocity = 0.0;
         double acceleration = 0.0;
-        std::optional<double> jerk; ///< nothing: the machine file has no jerk limit for the axis
+        std::optional<double> jerk;            ///< nothing: the machine file has no jerk limit for the axis
+        std::optional<double> jerk_reserved{}; ///< part of that limit that the plan keeps for rounding
     };
     /// Storage of the stages of the pipeline.
     struct MemoryBytes {

@@ -108,6 +108,10 @@ template <auto member>
 std::optional<std::uint64_t> events_of(const Sum& s) {
     return s.events + s.events_not_reached > 0 ? std::optional(s.*member) : std::nullopt;
 }
+std::optional<Json> reserves_of(const Sum& s) {
+    Json reserves = use_of<&Sum::AxisUse::jerk_reserved>(s);
+    return reserves.empty() ? std::nullopt : std::optional(std::move(reserves));
+}
 constexpr WrittenKey<Sum> summary_keys[] = {
     quantity<&Sum::cycle_time_s>("cycle_time_s", "s", "Duration of the motion."),
     quantity<&Sum::length_mm>("length_mm", "mm", "Length of the path."),
@@ -119,6 +123,7 @@ constexpr WrittenKey<Sum> summary_keys[] = {
     text<&Sum::curve>("curve", "The method."),
     quantity<&Sum::max_speed_mm_s>("max_speed_mm_s", "mm/s", "The largest one."),
     object<all_of, use_keys>("limit_use", "Largest use of each axis limit, measured on the emitted motion."),
+    if_any(axes<reserves_of>("jerk_reserved", "The part of each jerk limit that the plan keeps for rounding.")),
     or_null(quantity<&Sum::waypoint_error_mm>("waypoint_error_mm", "mm",
                                               "Largest distance; null: the curve need not pass them.")),
     or_null(quantity<&Sum::optimum_time_s>("optimum_time_s", "s",

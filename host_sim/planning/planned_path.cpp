@@ -61,6 +61,9 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
     if (!limits_->jerk_limited) { // else that counts the window of the plan that another one refines
         out.window_limited = trajectory.feed_plan().window_limited();
     }
+    for (const unsigned k : indices(limits_->axes)) {
+        out.jerk_mm_s3[k] = to_double(limits_->jerk_mm_s3[k]);
+    }
     planner_->visit_jerk([&](const auto& plan) {
         out.searched_legs = plan.searched_legs();
         out.slow_legs = plan.slow_legs();

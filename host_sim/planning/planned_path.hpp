@@ -49,6 +49,7 @@ public:
         std::optional<std::uint64_t> window_limited; ///< FeedPlan::window_limited(); none: another plan refines that
         std::optional<std::uint64_t> searched_legs;  ///< JerkPlan::searched_legs(); none: the jerk is not limited
         std::optional<std::uint64_t> slow_legs;      ///< JerkPlan::slow_legs()
+        PerAxis<double> jerk_mm_s3{};                ///< limits of the plan, which leave out what is kept for rounding
         std::size_t curve_bytes = 0;                 ///< memory of the stages
         std::size_t plan_bytes = 0;
         std::size_t stream_bytes = 0;

@@ -59,8 +59,11 @@ Summary Motion::summary() const {
         const LimitUse& use = machine_.use(k);
         const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
         const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
-        summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
-                                     has_jerk ? std::optional(use.jerk) : std::nullopt});
+        summary.limit_use.push_back(
+            {description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
+             has_jerk ? std::optional(use.jerk) : std::nullopt,
+             has_jerk ? std::optional(1.0 - path.jerk_mm_s3[static_cast<unsigned>(k)] / axis.max_jerk_mm_s3)
+                      : std::nullopt});
     }
     // Segments that came whole are not measured against the points they were made of.
     if (input_->segments() == nullptr && !input_->within_tolerance() && passes_waypoints(summary.curve)) {

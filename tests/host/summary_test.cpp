@@ -184,6 +184,10 @@ const struct {
          s.stops = 3;
          s.limit_use[1].acceleration = 1.5;
      }},
+    {"a jerk limit of which rounding takes more than a hundredth",
+     [](Summary& s) {
+         s.limit_use[0].jerk_reserved = 0.0345;
+     }},
     {"events that the run did not reach", of_events<&Summary::events_not_reached>},
     {"a path within a tolerance", within_a_tolerance},
     {"a tolerance that was not kept",
