@@ -7,7 +7,11 @@
 
 /// So many places of LineParts. With less than 288 not all lines of many moves are one.
 #ifndef SPLINEFEED_LINE_PARTS
+#if SPLINEFEED_MAX_DEGREE > 5
 #define SPLINEFEED_LINE_PARTS 288
+#else // a microcontroller
+#define SPLINEFEED_LINE_PARTS 8
+#endif
 #endif
 
 namespace splinefeed {
