@@ -7,7 +7,7 @@
 namespace splinefeed::hal::modbus {
 
 /// Why a drive is taken for lost: "it does not answer any more: ...", or the exception that it answers with.
-/// @param line  its line, for the reason of a lost connection; null: not known
+/// @param wire  its wire, for the reason of a lost connection; null: not known
 [[nodiscard]] std::string silence(const LinkAnswer& last, const ModbusWire* wire = nullptr);
 
 /// "it is in fault, code 7; ..."
