@@ -52,6 +52,23 @@ TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleratio
     }
 }
 
+TEST_CASE("What rounding takes of a jerk limit is told, and said where it is more than a hundredth") {
+    const Tool tool;
+    const std::string plan = "plan " + examples + "path61.csv'" + machine + " --no-advice --set sample_period_us=";
+    for (const auto& [period_us, least, most] : {std::array{1000.0, 0.0004, 0.001}, std::array{50.0, 0.011, 0.013}}) {
+        CAPTURE(period_us);
+        const json reserved =
+            json::parse(tool(plan + fmt::format("{} --summary json", period_us)).output)["jerk_reserved"];
+        CHECK(reserved.size() == 3);
+        for (const json& part : reserved) {
+            CHECK(part.get<double>() > least);
+            CHECK(part.get<double>() < most);
+        }
+        const std::string text = tool(plan + fmt::format("{}", period_us)).output;
+        CHECK((text.find("of the jerk limit of x is kept for rounding") != std::string::npos) == (most > 0.01));
+    }
+}
+
 // Of a chain of very short lines a cell's distance from the curve may take all of the jerk.
 TEST_CASE("A contour of short lines is never slow as a whole because of one of its cells") {
     const Tool tool;

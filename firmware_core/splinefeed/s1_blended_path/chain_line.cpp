@@ -7,36 +7,37 @@
 namespace splinefeed {
 
 template <Scalar S>
-S off_line(const ChainPoints<S>& points, std::uint64_t from, std::uint64_t to, PerAxis<S>& chord) noexcept {
+bool is_line(const ChainPoints<S>& points, std::uint64_t from, std::uint64_t to, S within, S& off) noexcept {
+    const int axes = points.axes();
+    PerAxis<S> chord{};
     points.programmed(from, to, chord);
-    const S length = norm(chord, points.axes());
+    const S length = norm(chord, axes);
     if (!(length > S{})) {
-        return largest<S>();
+        return false;
     }
-    S off{};
+    divide(chord, length, axes);
+    const S rounding = line_rounding(length);
+    const S most = larger(rounding, within);
     S before{};
+    off = S{};
     for (std::uint64_t i = from + 1; i < to; ++i) {
         PerAxis<S> apart{};
         points.programmed(from, i, apart);
-        S along{};
-        for (const unsigned k : indices(points.axes())) {
-            along += apart[k] * (chord[k] / length);
-        }
-        if (!(along > before)) {
-            return largest<S>();
+        const S along = dot(apart, chord, axes);
+        subtract(apart, along, chord, axes);
+        off = larger(off, norm(apart, axes));
+        if (!(along > before) || off > most) {
+            return false;
         }
         before = along;
-        for (const unsigned k : indices(points.axes())) {
-            apart[k] = apart[k] - along * (chord[k] / length);
-        }
-        off = larger(off, norm(apart, points.axes()));
     }
-    return before < length ? off : largest<S>();
+    off = off > rounding ? off : S{};
+    return before < length;
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5
 #define SPLINEFEED_INSTANTIATE(S)                                                                                      \
-    template S off_line(const ChainPoints<S>&, std::uint64_t, std::uint64_t, PerAxis<S>&) noexcept;
+    template bool is_line(const ChainPoints<S>&, std::uint64_t, std::uint64_t, S, S&) noexcept;
 SPLINEFEED_EACH_SCALAR(SPLINEFEED_INSTANTIATE)
 #undef SPLINEFEED_INSTANTIATE
 #endif

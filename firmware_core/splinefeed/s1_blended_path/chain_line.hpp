@@ -17,10 +17,11 @@ template <Scalar S>
     return smaller(literal<S>(0x1p-8), least + scale2(length, -30));
 }
 
-/// The largest distance of the programmed points between two of them from the line through these, or
-/// largest<S>() where they go back along it. `chord` becomes the way between the two. Cost: a root for each point.
+/// Whether the programmed points between two of them are on the line through these, to rounding or as near as said, and
+/// in order. `off` becomes their largest distance from it; 0: rounding. Cost: a root for each point, up to the first
+/// that is not.
 template <Scalar S>
-[[nodiscard]] S off_line(const ChainPoints<S>& points, std::uint64_t from, std::uint64_t to,
-                         PerAxis<S>& chord) noexcept;
+[[nodiscard]] bool is_line(const ChainPoints<S>& points, std::uint64_t from, std::uint64_t to, S within,
+                           S& off) noexcept;
 
 } // namespace splinefeed

@@ -105,10 +105,8 @@ bool ChainSmoother<S>::pass_straight(PathElement<S>& out, LineParts& parts) noex
     if (!straight_ || last == front_ + 1) {
         return false;
     }
-    PerAxis<S> chord{};
-    const S off = off_line(points_, front_, last, chord);
-    const S rounding = line_rounding(norm(chord, points_.axes()));
-    if (off > larger(rounding, scale2(tolerance_, straight_log2))) {
+    S off{};
+    if (!is_line(points_, front_, last, scale2(tolerance_, straight_log2), off)) {
         return false;
     }
     const std::uint64_t to =
@@ -119,16 +117,13 @@ bool ChainSmoother<S>::pass_straight(PathElement<S>& out, LineParts& parts) noex
     for (std::uint64_t i = front_ + 1; i < to; ++i) {
         parts.add({points_[i].place, points_[i].index, passed_});
     }
-    const S kept = off <= rounding ? S{} : scale2(off, to < last ? 1 : 0);
+    const S kept = scale2(off, to < last ? 1 : 0);
     const S share = merged(to) ? literal<S>(rest) : from_integer<S>(1);
     out.tolerance_mm = scale2(share * tolerance_ - kept + spare_, chord_unit_log2);
     points_[to].moved = {};
     out.to = points_[to].place;
     points_.programmed(front_, to, state_.tangent);
-    const S length = norm(state_.tangent, points_.axes());
-    for (const unsigned k : indices(points_.axes())) {
-        state_.tangent[k] = state_.tangent[k] / length;
-    }
+    divide(state_.tangent, norm(state_.tangent, points_.axes()), points_.axes());
     state_.bend = {};
     front_ = to;
     return true;

@@ -17,26 +17,17 @@ template <Scalar S>
 bool pass_part(LineParts& parts, const PerAxis<Position>& here, int axes, PerAxis<Position>& there,
                std::uint32_t& index) noexcept {
     while (const LinePart* const part = parts.next_before(index)) {
-        PerAxis<S> along{};
-        PerAxis<S> offset{};
-        for (const unsigned k : indices(axes)) {
-            along[k] = distance<S>(here[k], there[k], chord_unit_log2);
-            offset[k] = distance<S>(here[k], part->place[k], chord_unit_log2);
-        }
+        PerAxis<S> along = distances<S>(here, there, chord_unit_log2, axes);
         const S length = norm(along, axes);
-        for (const unsigned k : indices(axes)) {
-            along[k] = along[k] / length;
-        }
-        const S way = dot(offset, along, axes);
+        divide(along, length, axes);
+        const S way = dot(distances<S>(here, part->place, chord_unit_log2, axes), along, axes);
         if (way > length - literal<S>(least_part)) {
             return false;
         }
         const std::uint32_t its = part->index;
         parts.pass();
         if (way > literal<S>(least_part)) {
-            for (const unsigned k : indices(axes)) {
-                there[k] = displaced(here[k], way * along[k], chord_unit_log2);
-            }
+            there = each(axes, [&](unsigned k) { return displaced(here[k], way * along[k], chord_unit_log2); });
             index = its;
             return true;
         }
