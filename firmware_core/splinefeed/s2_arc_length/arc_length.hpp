@@ -64,6 +64,7 @@ private:
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool leaves_open_travel(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool bends_too_much() const noexcept;
+    [[nodiscard]] S largest_sq_in_turn() const noexcept;
     [[nodiscard]] bool errs_too_much() const noexcept;
     [[nodiscard]] bool coarse_near(const Piece<S>& piece, bool start, bool end) const noexcept;
     void split() noexcept;

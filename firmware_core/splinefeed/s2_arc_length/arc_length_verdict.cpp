@@ -17,6 +17,7 @@ constexpr float finest<float> = 16.0F;
 
 constexpr double long_mm = 64.0; // of a piece that hardly bends
 
+constexpr double least_turn = 0.03;           // rad: of a piece in which terms may cancel
 constexpr double shortest_reach = 0.01 / 5.9; // of sqrt(J / v) L over v, where J is 5.9^2 Refinement::error_mm_s3
 
 } // namespace
@@ -100,25 +101,53 @@ bool ArcLength<S>::bends_too_much() const noexcept {
     return false;
 }
 
+// The largest v^2 in the middle of a piece, whatever the acceleration a along the path is: of two axes a cancels out of
+// |q'' v^2 + q' a| <= A.
+template <Scalar S>
+S ArcLength<S>::largest_sq_in_turn() const noexcept {
+    const PerAxis<Ratio<S>>& tangent = m_.first[1];
+    const PerAxis<Ratio<S>>& bend = m_.second[1];
+    auto most_sq = largest<S>();
+    for (const unsigned i : indices(current().axes)) {
+        for (unsigned j = 0; j < i; ++j) {
+            const S most =
+                refinement_.bend_mm_s2[i] * absolute(tangent[j]) + refinement_.bend_mm_s2[j] * absolute(tangent[i]);
+            const S across = lengthened<S>(absolute(bend[i] * tangent[j] - bend[j] * tangent[i]));
+            most_sq = smaller(most_sq, quotient_or_max(most * m_.length_mm, across));
+        }
+    }
+    return most_sq;
+}
+
 // Whether the jerk that the error e of the shape stands for, e v^3 / L^2, is too large a part of a limit, at the speed
 // at which the path could be travelled there. A piece is not cut for that below a hundredth of the way in which the
 // jerk changes that speed by itself, sqrt(v^3 / J): nothing has to change so fast.
+// But in a sharp turn between axes with other limits, terms that are many times a limit cancel, and more speed is
+// possible than without an acceleration along the path. There pieces are cut for twice that speed, as long as the error
+// is not mere rounding.
 template <Scalar S>
 bool ArcLength<S>::errs_too_much() const noexcept {
     const bool jerk_limited = refinement_.error_mm_s3[0] > S{};
     if (!jerk_limited || current().degree == 1 || m_.length_mm > literal<S>(long_mm)) {
         return false;
     }
-    S speed_sq = feed_mm_s_ * feed_mm_s_;
+    const S feed_sq = feed_mm_s_ * feed_mm_s_;
+    S speed_sq = feed_sq;
     for (const unsigned k : indices(current().axes)) {
         const S bend = lengthened<S>(PieceMeasure<S>::bound(m_.second, k));
         speed_sq = smaller(speed_sq, quotient_or_max(refinement_.bend_mm_s2[k] * m_.length_mm, bend));
     }
-    const S speed = square_root(speed_sq);
+    S in_turn_sq{};
+    if (m_.sharpest_bend(current().axes) > literal<Ratio<S>>(least_turn)) {
+        in_turn_sq = smaller(feed_sq, largest_sq_in_turn());
+    }
+    const bool cancels = scale2(in_turn_sq, -1) > speed_sq;
+    const S speed = cancels ? scale2(square_root(in_turn_sq), 1) : square_root(speed_sq);
     for (const unsigned k : indices(current().axes)) {
+        const Ratio<S> error = m_.shape(k).error_bound;
         const S reach = square_root(quotient_or_max(refinement_.error_mm_s3[k], speed)) * m_.length_mm;
-        if (reach > literal<S>(shortest_reach) * speed &&
-            reach < square_root(lengthened<S>(m_.shape(k).error_bound)) * speed) {
+        if ((cancels ? error > times(16, m_.noise) : reach > literal<S>(shortest_reach) * speed) &&
+            reach < square_root(lengthened<S>(error)) * speed) {
             return true;
         }
     }
