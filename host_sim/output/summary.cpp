@@ -140,9 +140,9 @@ void write_sentences(Lines out, const Summary& summary) {
                        "keeps less.\n",
                        100.0 * *most->jerk_reserved, most->axis);
     }
-    if (summary.window_limited.value_or(0) > 0) {
+    if (summary.window_limited > 0) {
         fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
-                       plural(*summary.window_limited, "time"));
+                       plural(summary.window_limited, "time"));
     }
     if (summary.slow_legs.value_or(0) > 0) {
         fmt::format_to(out, "No new plan was found in {} of {} searches, and the machine went on by the plan before.\n",

@@ -81,9 +81,9 @@ struct Summary {
     bool stopped = false;                 ///< the run ended before the program
     std::uint64_t events = 0;             ///< of the operator
     std::uint64_t events_not_reached = 0; ///< events after the end of the run
-    /// How often the planning window was too short to know that the plan is the best; nothing: with a jerk limit that
-    /// is not known.
-    std::optional<std::uint64_t> window_limited;
+    /// How often the planning window was too short to know that the plan is the best; with a jerk limit how often the
+    /// speed was what the machine can stop from within it.
+    std::uint64_t window_limited = 0;
     std::optional<std::uint64_t> searched_legs; ///< that a plan with a jerk limit was searched for, again and again
     std::optional<std::uint64_t> slow_legs;     ///< of these, those without a new plan
     std::uint64_t stops = 0;                    ///< corners where the feed is zero, without the ends

@@ -132,8 +132,7 @@ constexpr WrittenKey<Sum> summary_keys[] = {
                                     "From the start to the summary; on a real target how long it computed."),
     object<&Sum::memory_bytes, memory_keys>("memory_bytes", "Memory of the planner."),
     flag<&Sum::stopped>("stopped", "The run ended before its program."),
-    or_null(
-        count<&Sum::window_limited>("window_limited", "How often the planning window was too short; null: not known.")),
+    count<&Sum::window_limited>("window_limited", "How often the planning window was too short."),
     or_null(count<&Sum::searched_legs>("searched_legs",
                                        "Searches for a plan with a jerk limit; null: the jerk is not limited.")),
     or_null(count<&Sum::slow_legs>("slow_legs", "Those that found none: the machine went on by the plan before.")),

@@ -58,15 +58,14 @@ PlannedPath::Statistics ScalarPath<S>::statistics() const {
     if (!curve_) {
         out.counts = stream_->counts();
     }
-    if (!limits_->jerk_limited) { // else that counts the window of the plan that another one refines
-        out.window_limited = trajectory.feed_plan().window_limited();
-    }
+    out.window_limited = trajectory.feed_plan().window_limited();
     for (const unsigned k : indices(limits_->axes)) {
         out.jerk_mm_s3[k] = to_double(limits_->jerk_mm_s3[k]);
     }
     planner_->visit_jerk([&](const auto& plan) {
         out.searched_legs = plan.searched_legs();
         out.slow_legs = plan.slow_legs();
+        out.window_limited = plan.window_limited(); // that of the plan which it refines says nothing
     });
     out.curve_bytes = curve_ ? curve_->bytes() : sizeof(TolerancePath<S>);
     out.plan_bytes = planner_->bytes();

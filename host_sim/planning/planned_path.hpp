@@ -42,15 +42,15 @@ class PlannedPath {
 public:
     struct Statistics {
         const char* scalar = "";
-        const char* jerk_scalar = "";                ///< of a JerkPlanner; empty: the jerk is not limited
-        double length_mm = 0.0;                      ///< that was travelled
-        std::uint64_t curve_segments = 0;            ///< that were passed to the plan
-        PathCounts counts;                           ///< of a path within a tolerance
-        std::optional<std::uint64_t> window_limited; ///< FeedPlan::window_limited(); none: another plan refines that
-        std::optional<std::uint64_t> searched_legs;  ///< JerkPlan::searched_legs(); none: the jerk is not limited
-        std::optional<std::uint64_t> slow_legs;      ///< JerkPlan::slow_legs()
-        PerAxis<double> jerk_mm_s3{};                ///< limits of the plan, which leave out what is kept for rounding
-        std::size_t curve_bytes = 0;                 ///< memory of the stages
+        const char* jerk_scalar = "";               ///< of a JerkPlanner; empty: the jerk is not limited
+        double length_mm = 0.0;                     ///< that was travelled
+        std::uint64_t curve_segments = 0;           ///< that were passed to the plan
+        PathCounts counts;                          ///< of a path within a tolerance
+        std::uint64_t window_limited = 0;           ///< FeedPlan::window_limited() or JerkPlan::window_limited()
+        std::optional<std::uint64_t> searched_legs; ///< JerkPlan::searched_legs(); none: the jerk is not limited
+        std::optional<std::uint64_t> slow_legs;     ///< JerkPlan::slow_legs()
+        PerAxis<double> jerk_mm_s3{};               ///< limits of the plan, which leave out what is kept for rounding
+        std::size_t curve_bytes = 0;                ///< memory of the stages
         std::size_t plan_bytes = 0;
         std::size_t stream_bytes = 0;
     };

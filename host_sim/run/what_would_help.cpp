@@ -159,10 +159,9 @@ LimitAdvice what_would_help(const HelpArguments& arguments, const Summary& summa
         const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
         add(candidate.name, setting, 0, planned_s(arguments, higher, factor, out.moves, arguments.planner));
     }
-    // A plan with a jerk limit does not know whether its window was too short for the path.
     PlannerChoice longer = arguments.planner;
     longer.window_cells = std::min(longer.window_cells * times_longer, longest_window);
-    if (summary.window_limited.value_or(1) > 0 && longer.window_cells > arguments.planner.window_cells) {
+    if (summary.window_limited > 0 && longer.window_cells > arguments.planner.window_cells) {
         const double seconds = planned_s(arguments, of, 1.0, out.moves, longer);
         add(fmt::format("window of {} cells", longer.window_cells), {}, longer.window_cells, seconds);
     }

@@ -7,6 +7,8 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 using namespace splinefeed_test;
@@ -113,6 +115,52 @@ TEMPLATE_TEST_CASE("a straight move takes the time of the S-curve", "[stream][je
             CHECK(seconds <= (std::same_as<TestType, float> ? 1.003 : 1.001) * least + 3.0 * segment_s); // with a dwell
             CHECK(seconds >= least);
         }
+    }
+}
+
+// The speed would rise with each part of the path that becomes known, and fall before its end.
+TEMPLATE_TEST_CASE("where the window covers less than the way of braking, the speed is even", "[stream][jerk]",
+                   DoubleInDouble, FixedInFloat) {
+    MachineSettings machine = machine_of(2, 300.0, 2000.0, 300.0);
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 20000.0;
+    BezierPath wave; // of half a millimetre, in pieces as long
+    const auto height = [](double x) {
+        return 0.5 * std::sin(x / 40.0);
+    };
+    const auto slope = [](double x) {
+        return 0.5 / 40.0 * std::cos(x / 40.0);
+    };
+    for (int i = 0; i < 1000; ++i) {
+        const double x = 0.5 * i;
+        const double rise = height(x + 0.5) - height(x);
+        wave.push_back(
+            cubic_shape(0.5 / 3.0, 0.5 / 3.0 * slope(x), 1.0 / 3.0, rise - 0.5 / 3.0 * slope(x + 0.5), 0.5, rise));
+    }
+    double before_s = 60.0;
+    for (const std::size_t window : {16U, 32U, 64U}) {
+        const Stream stream = stream_of<typename TestType::S, typename TestType::R>(wave, machine, window);
+        require_limits(stream, machine);
+        double extreme = 0.0;
+        double fastest = 0.0;
+        int turns = 0; // of the speed, by more than a hundredth
+        bool rises = true;
+        for (const FeedSegment& segment : stream.segments) {
+            const double speed = std::hypot(static_cast<double>(segment.end[0] - segment.start[0]),
+                                            static_cast<double>(segment.end[1] - segment.start[1])) /
+                                 segment.duration_ticks;
+            fastest = std::max(fastest, speed);
+            if (rises ? speed < extreme - 0.01 * fastest : speed > extreme + 0.01 * fastest) {
+                ++turns;
+                rises = !rises;
+            }
+            extreme = turns % 2 == 0 ? std::max(extreme, speed) : std::min(extreme, speed);
+        }
+        const double seconds = static_cast<double>(stream.segments.size()) * stream.segments[0].duration_ticks / 8e6;
+        CAPTURE(window, seconds);
+        CHECK(turns <= 3); // a peak before it is known, and the end
+        CHECK(stream.limited > 10);
+        CHECK(seconds < 0.8 * before_s);
+        before_s = seconds;
     }
 }
 

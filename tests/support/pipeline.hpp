@@ -149,6 +149,7 @@ public:
     }
     [[nodiscard]] Trajectory<S>& trajectory() { return trajectory_; }
     [[nodiscard]] std::uint64_t slow_legs() const { return jerk_ ? jerk_->plan().slow_legs() : 0; }
+    [[nodiscard]] std::uint64_t window_limited() const { return jerk_ ? jerk_->plan().window_limited() : 0; }
 
 private:
     using JerkScalar = std::conditional_t<std::same_as<S, float>, double, S>;

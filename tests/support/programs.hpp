@@ -133,7 +133,7 @@ private:
 
 struct Stream {
     std::vector<FeedSegment> segments;
-    std::uint64_t limited = 0;
+    std::uint64_t limited = 0; ///< JerkPlan::window_limited
     bool endless = false;
     std::uint64_t slow_legs = 0; ///< JerkPlan::slow_legs
 };
@@ -208,7 +208,7 @@ Stream stream_through(Curve& curve, const Program& program, const MotionLimits<S
                 ++starvations >= most_starvations; // starved for ever: full of waypoints, yet asking for more
         }
     }
-    stream.limited = trajectory.feed_plan().window_limited();
+    stream.limited = any.window_limited();
     stream.slow_legs = any.slow_legs();
     return stream;
 }
@@ -246,7 +246,7 @@ Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& m
             stream.endless = stream.segments.size() >= most;
         }
     }
-    stream.limited = trajectory.feed_plan().window_limited();
+    stream.limited = any.window_limited();
     stream.slow_legs = any.slow_legs();
     return stream;
 }

@@ -98,7 +98,7 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
             from_rest_to_rest(machine.settings, statistics.length_mm, static_cast<double>(statistics.curve_segments));
         run.searched_legs = statistics.searched_legs.value_or(0);
         run.slow_legs = statistics.slow_legs.value_or(0);
-        run.short_window = statistics.window_limited.value_or(0) > 0;
+        run.short_window = statistics.window_limited > 0;
     } catch (const InputError& error) {
         run.refused = error.what();
     } catch (const UsageError& error) {

@@ -16,7 +16,7 @@ struct WildRun {
     double seconds = 0.0;
     double least_s = 0.0; ///< OptimumTime, of a run that ended
     double most_s = 0.0;  ///< from rest to rest on every segment of the curve, all by the softest limits of the axes
-    bool short_window = false;       ///< FeedPlan::window_limited
+    bool short_window = false;       ///< that of the plan was
     std::uint64_t searched_legs = 0; ///< JerkPlan::searched_legs()
     std::uint64_t slow_legs = 0;     ///< JerkPlan::slow_legs()
     std::uint64_t segments = 0;

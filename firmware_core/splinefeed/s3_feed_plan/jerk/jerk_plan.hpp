@@ -49,6 +49,7 @@ public:
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return plan_.slow_legs(); }
     /// How many legs were planned, a leg that is planned again once more; without straight legs.
     [[nodiscard]] std::uint64_t searched_legs() const noexcept { return plan_.searched_legs(); }
+    [[nodiscard]] std::uint64_t window_limited() const noexcept { return plan_.window_limited(); }
 
 private:
     using SampledPlan<S, X>::profile_segment_;

@@ -156,6 +156,15 @@ void LegPlan<R>::know(R middle_sq) noexcept {
 }
 
 template <Floating R>
+void LegPlan<R>::limit(R most_sq) noexcept {
+    for (std::size_t i = 0; i < cells_; ++i) {
+        LegNode<R>& node = nodes_[i];
+        const R in_force = i < known_ ? R(above_braking) * node.known_sq : R(0);
+        node.cap_sq = smaller(node.cap_sq, larger(most_sq, in_force));
+    }
+}
+
+template <Floating R>
 void LegPlan<R>::begin_visit(Stage stage) noexcept {
     stage_ = stage;
     at_ = rests_ ? 1 : 0;

@@ -29,6 +29,8 @@ public:
     /// The middle of the last cell in a plan that is possible. @pre all cells before it are known
     void know(R middle_sq) noexcept;
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
+    /// Caps the middles of all cells, but not below what is known.
+    void limit(R most_sq) noexcept;
 
     /// Begins the search for the fastest motion. @pre fewest_cells or more
     void search() noexcept;

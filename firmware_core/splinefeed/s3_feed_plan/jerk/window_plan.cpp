@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // A leg that ends at a stop is final; of a leg that ends with the window, about the first half is committed. The rest
-// is planned again when more of the path is known. Its old plan is kept. If no new one is found from the state at the
-// end of the committed part, the old one goes on: it ends at standstill.
+// is planned again when more of the path is known. Where it brakes there only because the window ends, later legs are
+// not faster than that, for each mm that they know ahead: the speed would rise and fall with each leg. Its old plan is
+// kept. If no new one is found from the state at the end of the committed part, the old one goes on: it ends at
+// standstill.
 #include "splinefeed/s3_feed_plan/jerk/window_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -10,6 +12,19 @@
 #include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 namespace splinefeed {
+
+namespace {
+
+constexpr unsigned first_final = 22; // per cent of the cells of a leg that are final, if it ends with the window
+constexpr unsigned last_final = 60;
+constexpr double least_growth = 1.0 / 512;
+constexpr double near_cap = 0.98;
+
+constexpr std::size_t part_of(std::size_t cells, unsigned per_cent) noexcept {
+    return larger<std::size_t>(1, cells * per_cent / 100U);
+}
+
+} // namespace
 
 // From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
 // plan; after them there may be one. Returns its end.
@@ -36,6 +51,10 @@ void WindowPlan<S, R>::add_cell() noexcept {
         leg_->know(static_cast<R>(window_->node(i).middle_sq));
     }
     if (leg_->cells() == leg_cells_) {
+        if (!stops_at(at_ + leg_cells_)) {
+            most_sq_ = covered_.by(ahead_mm(at_ + part_of(leg_cells_, first_final)));
+            leg_->limit(most_sq_);
+        }
         leg_->search();
     }
 }
@@ -77,12 +96,9 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
 // it brakes least, and so that a leg is left behind it; one cell at least.
 template <Scalar S, Floating R>
 std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
-    const auto part = [cells](unsigned per_cent) {
-        return larger<std::size_t>(1, cells * per_cent / 100U);
-    };
-    std::size_t best = part(50);
+    std::size_t best = part_of(cells, 50);
     auto least = largest<double>();
-    for (std::size_t i = part(60); i >= part(35); --i) {
+    for (std::size_t i = part_of(cells, last_final); i >= part_of(cells, first_final); --i) {
         const SpeedState state = window_->state(first + i);
         const double braking = -state.slope / square_root(state.b);
         if (braking < least) {
@@ -96,6 +112,49 @@ std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) 
     return larger<std::size_t>(1, smaller(best, cells - LegPlan<R>::fewest_cells));
 }
 
+template <Scalar S, Floating R>
+bool WindowPlan<S, R>::stops_at(std::size_t end) const noexcept {
+    return window_->cell(end - 1).stop_at_end || (ended_ && end == window_->size());
+}
+
+template <Scalar S, Floating R>
+R WindowPlan<S, R>::ahead_mm(std::size_t first) const noexcept {
+    R ahead{};
+    for (std::size_t i = first; i < at_ + leg_cells_; ++i) {
+        ahead += window_->node(i).length_mm;
+    }
+    return ahead;
+}
+
+// What a leg that ends with the window shows. It brakes at the end of its final part although the path would let it go
+// on as fast: the look-ahead binds. Where nothing else binds in all of the leg, later ones are not faster than that,
+// for what they know ahead.
+template <Scalar S, Floating R>
+void WindowPlan<S, R>::look_ahead(std::size_t committed) noexcept {
+    const SpeedState state = window_->state(committed);
+    const R b = static_cast<R>(state.b);
+    R most{};
+    R least = largest<R>();
+    R least_behind = largest<R>();
+    for (std::size_t i = at_; i < at_ + leg_cells_; ++i) {
+        const JerkNode<R>& node = window_->node(i);
+        most = larger(most, static_cast<R>(node.b));
+        R& at_most = i < committed ? least : least_behind;
+        at_most = smaller(at_most, smaller(node.cap_sq, window_->node(i + 1).at_most_sq));
+    }
+    const bool free = !(smaller(least, least_behind) < most);
+    const bool brakes = state.slope < 0.0 && !(least_behind < b);
+    window_limited_ += brakes || (free && b > R(near_cap) * most_sq_) ? 1 : 0;
+    if (!free) {
+        covered_ = {};
+    } else if (brakes) {
+        covered_ = {b, ahead_mm(committed), R(least_growth)};
+    } else {
+        covered_.b += covered_.growth * covered_.b;
+        covered_.growth = smaller(R(2) * covered_.growth, R(1));
+    }
+}
+
 // Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
 template <Scalar S, Floating R>
 bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
@@ -107,7 +166,7 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
         while (end < window_->size() && !window_->cell(end - 1).stop_at_end) {
             ++end;
         }
-        const bool stops = window_->cell(end - 1).stop_at_end || (ended_ && end == window_->size());
+        const bool stops = stops_at(end);
         if (!stops && at_ > first_) {
             break;
         }
@@ -129,10 +188,14 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
         if (search == Search::running) {
             return false;
         }
-        leg_cells_ = 0;
         if (search == Search::found) {
             planned_ = end;
-            at_ = stops ? end : at_ + final_cells(at_, end - at_);
+            std::size_t final_end = end;
+            if (!stops) {
+                final_end = at_ + final_cells(at_, end - at_);
+                look_ahead(final_end);
+            }
+            at_ = final_end;
             hops_ = 1;
         } else if (rests) {
             at_ = rest_to_rest(at_, end);
@@ -142,6 +205,7 @@ bool WindowPlan<S, R>::run(WorkBudget& work) noexcept {
             after = State::goes_on;
             break;
         }
+        leg_cells_ = 0;
         SPLINEFEED_ASSERT(at_ > before);
     }
     committed_ = at_;

@@ -9,6 +9,7 @@
 
 #include "splinefeed/base/work_budget.hpp"
 #include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
 namespace splinefeed {
 
@@ -46,6 +47,7 @@ public:
     void clear() noexcept {
         take(0, 0);
         hops_ = 1;
+        covered_ = {};
     }
 
     /// Begins to plan anew what is not committed. @param ended  no cell comes behind the window
@@ -73,6 +75,8 @@ public:
     [[nodiscard]] std::uint64_t searched_legs() const noexcept { return searched_legs_; }
     /// How often such a leg could not be planned as fast as possible.
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
+    /// How often such a leg was slower than its path allows, because the window ends so near.
+    [[nodiscard]] std::uint64_t window_limited() const noexcept { return window_limited_; }
 
 private:
     enum class State : std::uint8_t {
@@ -81,9 +85,24 @@ private:
         goes_on ///< by an old plan, because no new one was found
     };
 
+    /// v^2 from which the machine can stop in what is known ahead.
+    struct Covered {
+        R b = largest<R>();
+        R ahead_mm = R(1);
+        R growth{}; ///< of b by the next leg that does not reach it
+        /// With another look-ahead: as the acceleration or the jerk would have it, whichever is more.
+        [[nodiscard]] R by(R mm) const noexcept {
+            const R ratio = mm / ahead_mm;
+            return b * larger(ratio, power_two_thirds(ratio * ratio));
+        }
+    };
+
     void add_cell() noexcept;
     Search search_leg(WorkBudget& work) noexcept;
+    [[nodiscard]] bool stops_at(std::size_t end) const noexcept;
+    [[nodiscard]] R ahead_mm(std::size_t first) const noexcept;
     [[nodiscard]] std::size_t final_cells(std::size_t first, std::size_t cells) const noexcept;
+    void look_ahead(std::size_t committed) noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
 
     JerkWindow<S, R>* window_;
@@ -96,6 +115,9 @@ private:
     std::size_t hops_ = 1; // cells that are passed from standstill to standstill if no plan is found; doubled each time
     std::uint64_t searched_legs_ = 0;
     std::uint64_t slow_legs_ = 0;
+    std::uint64_t window_limited_ = 0;
+    Covered covered_;
+    R most_sq_{}; // cap of this leg by it
     State state_ = State::outdated;
     bool ended_ = false;
 };
