@@ -46,8 +46,8 @@ bool TpMotion::rests() const noexcept {
 }
 
 // A period on.
-void TpMotion::follow() noexcept {
-    if (rests() && unfinished_ && ring_count_ < ahead_) {
+void TpMotion::follow(bool planned) noexcept {
+    if (rests() && !planned && ring_count_ < ahead_) {
         return; // from standstill with a store: the first plan is the longest work
     }
     in_now_s_ += machine_.period_s;
@@ -148,7 +148,8 @@ void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
     output.first = first_;
     output.pushed = pushed_;
     output.last = last_;
-    output.waits = waits_ ? 1 : 0;
+    const bool waits = state_ == State::between || state_ == State::path_waits || state_ == State::sync_waits;
+    output.waits = waits ? 1 : 0;
     output.error = error_;
     error_ = nullptr;
 }
@@ -159,14 +160,14 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     output.reverses = 0;
     output.in_step = 0;
     ++idle_;
-    if (syncs_) {
+    if (state_ >= State::sync_waits) {
         run_synced(input, output);
-    } else if (planning_) {
+    } else if (state_ >= State::path) {
         steer(input);
-        plan();
-        follow();
-        first_ = waits_ ? pushed_ : first_;                                    // what is before it is over
-        planning_ = !waits_ || sent_abort_ || !(move(pushed_).pitch_mm > 0.0); // else it follows the spindle
+        follow(plan(input.may_begin != 0));
+        const bool waits = state_ == State::path_waits;
+        first_ = waits ? pushed_ : first_; // what is before it is over
+        state_ = waits && !sent_abort_ && move(pushed_).pitch_mm > 0.0 ? State::between : state_;
         const bool aborted = sent_abort_ && stands() && stream_->activity() == Activity::aborted;
         const bool complete = pushed_ == last_ && has_now_ && at_known_end() && input.hold == 0;
         if (complete) {

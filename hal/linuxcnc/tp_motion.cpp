@@ -84,14 +84,15 @@ Mm TpMotion::mm_of(const double* position) const noexcept {
 // At standstill; what is queued stays.
 void TpMotion::leave_path() noexcept {
     ring_head_ = ring_count_ = 0;
-    planning_ = waits_ = has_now_ = unfinished_ = refills_ = false;
+    state_ = State::no_path;
+    has_now_ = refills_ = false;
     in_now_s_ = 0.0;
 }
 
 void TpMotion::forget() noexcept {
     leave_path();
     first_ = pushed_ = last_;
-    syncs_ = failed_ = leads_ = false;
+    failed_ = false;
     end_ = at_;
 }
 
@@ -176,20 +177,18 @@ void TpMotion::begin(const tpc_machine& machine) noexcept {
     machine_ = machine;
     share_ns_ = static_cast<long long>(settings_.share * machine.period_s * 1e9);
     if (move(first_).pitch_mm > 0.0) {
-        syncs_ = waits_ = true;
-        tap_ = Tap::in;
+        state_ = State::sync_waits;
         sync_.start(machine.period_s);
         return;
     }
-    const char* const reason = begin_path();
-    planning_ = reason == nullptr;
-    if (!planning_) {
+    if (const char* const reason = begin_path(); reason != nullptr) {
         fail(reason);
     }
 }
 
 // What is wrong; nullptr: nothing.
 const char* TpMotion::begin_path() noexcept {
+    const bool leads = state_ == State::leads;
     leave_path();
     const MachineSettings settings = settings_of(machine_);
     const auto made = MotionLimits<double>::make(settings);
@@ -207,13 +206,11 @@ const char* TpMotion::begin_path() noexcept {
         return describe(placed.error());
     }
     base_ = floor_ = pushed_;
-    if (leads_) {
-        if (const Status led = lead(); !led.ok()) {
-            return describe(led.error());
-        }
+    if (const Status led = leads ? lead() : Status{}; !led.ok()) {
+        return describe(led.error());
     }
-    neared_ = pushed_ - 1U;
-    piece_ = pushed_ - 1U;
+    state_ = State::path;
+    neared_ = piece_ = pushed_ - 1U;
     sent_abort_ = false;
     ratio_ = rapids_ = PacedValue(1.0);
     most_ = PacedValue(no_limit_mm_s);
@@ -221,7 +218,6 @@ const char* TpMotion::begin_path() noexcept {
 }
 
 void TpMotion::steer(const tpc_input& input) noexcept {
-    may_begin_ = input.may_begin != 0;
     const bool abort = input.abort != 0 || failed_;
     if (abort && !sent_abort_) {
         stream_->abort();
@@ -246,14 +242,14 @@ void TpMotion::steer(const tpc_input& input) noexcept {
 }
 
 // Gives the stream one more move; false: none may go now.
-bool TpMotion::push_one() noexcept {
+bool TpMotion::push_one(bool may_begin) noexcept {
     if (pushed_ == last_ || (stepped_ && pushed_ != first_)) {
         return false;
     }
     const QueuedMove& next = move(pushed_);
     if (next.stands_before) {
-        waits_ = stream_->stop() && at_known_end();
-        if (!waits_ || !may_begin_ || next.pitch_mm > 0.0) {
+        state_ = stream_->stop() && at_known_end() ? State::path_waits : State::path;
+        if (state_ == State::path || !may_begin || next.pitch_mm > 0.0) {
             return false;
         }
         stream_->go_on();
@@ -265,7 +261,7 @@ bool TpMotion::push_one() noexcept {
         }
         return false;
     }
-    waits_ = false;
+    state_ = State::path;
     ++pushed_;
     if (stepped_) {
         stream_->stop();
@@ -273,9 +269,9 @@ bool TpMotion::push_one() noexcept {
     return true;
 }
 
-bool TpMotion::push_moves() noexcept {
+bool TpMotion::push_moves(bool may_begin) noexcept {
     unsigned n = 0;
-    while (n < most_pushed && push_one()) {
+    while (n < most_pushed && push_one(may_begin)) {
         ++n;
     }
     return n > 0;
@@ -319,22 +315,20 @@ bool TpMotion::knows_enough() noexcept {
 }
 
 // A search of the plan with jerk begins anew where the motion went on without its result. So it gets the time of a full
-// ring: until that is full, the motion goes on by the old plan.
-void TpMotion::plan() noexcept {
+// ring: until that is full, the motion goes on by the old plan. false: the share of the period was not enough.
+bool TpMotion::plan(bool may_begin) noexcept {
     const long long end = settings_.now_ns() + share_ns_;
     const int probing = limits_.jerk_limited ? probing_with_jerk : fewest_ahead;
     const int ahead = move(first_).probes ? smaller(probing, settings_.ahead) : settings_.ahead;
     ahead_ = per_period_ * static_cast<unsigned>(ahead);
-    static_cast<void>(push_moves());
+    static_cast<void>(push_moves(may_begin));
     Supply supply = Supply::flows;
-    unfinished_ = false;
     while (ring_count_ < ahead_) {
         const bool over = settings_.now_ns() >= end;
         const bool moves = !stream_->at_rest();
         const bool needed = ring_count_ <= per_period_ && moves;
         if (over && !needed) {
-            unfinished_ = true;
-            return;
+            return false;
         }
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
@@ -347,20 +341,19 @@ void TpMotion::plan() noexcept {
         } else if (pull == Pull::busy) {
             ++figures_.busy;
             if (over) { // it has no plan to go on by, so it stands
-                unfinished_ = true;
-                return;
+                return false;
             }
         } else if (pull != Pull::starved) {
             if (const Status path = stream_->status(); !path.ok()) {
                 fail(describe(path.error()));
             }
-            return;
-        } else if (push_moves()) {
+            return true;
+        } else if (push_moves(may_begin)) {
             continue;
         } else if (pauses()) {
             supply = Supply::pauses;
         } else if (ring_count_ > per_period_ || supply != Supply::flows || over || (!has_now_ && !knows_enough())) {
-            return; // or there is time for moves to come
+            return true; // or there is time for moves to come
         } else {
             supply = Supply::late;
         }
@@ -368,6 +361,7 @@ void TpMotion::plan() noexcept {
     refills_ = false;
     while (settings_.now_ns() < end && stream_->trajectory().plan_ahead(part)) {
     }
+    return true;
 }
 
 } // namespace splinefeed::linuxcnc

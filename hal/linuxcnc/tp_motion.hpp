@@ -45,7 +45,7 @@ class TpMotion {
 public:
     void create(const tpc_settings& settings, const tpc_machine& machine) noexcept;
     void set(const double* position) noexcept;
-    [[nodiscard]] bool begins() const noexcept { return !planning_ && !syncs_ && first_ != last_; }
+    [[nodiscard]] bool begins() const noexcept { return state_ < State::path && first_ != last_; }
     void begin(const tpc_machine& machine) noexcept;
     [[nodiscard]] int add(const tpc_move& move) noexcept;
     void spindle(double turns, double per_s) noexcept {
@@ -56,6 +56,19 @@ public:
     [[nodiscard]] const tpc_figures& figures() const noexcept { return figures_; }
 
 private:
+    enum class State : std::uint8_t {
+        no_path,
+        leads,   ///< the same, and the next path begins with a line to `lead_to_`
+        between, ///< the same, before move `pushed_`, which follows the spindle
+        path,
+        path_waits, ///< at standstill before move `pushed_`
+        sync_waits, ///< likewise, before a move that follows the spindle
+        sync,       ///< it follows the spindle
+        tap_back,   ///< and back
+        tap_stops,
+        tap_returns ///< to where it began, without the spindle
+    };
+
     static constexpr std::size_t window_cells = SPLINEFEED_TP_WINDOW;
     static constexpr std::size_t jerk_cells = window_cells / 4;
     static constexpr std::size_t all_jerk_cells = jerk_cells + jerk_cells / 3;
@@ -75,16 +88,16 @@ private:
     void forget() noexcept;
     void fail(const char* reason) noexcept;
     void steer(const tpc_input& input) noexcept;
-    void plan() noexcept;
+    [[nodiscard]] bool plan(bool may_begin) noexcept;
     [[nodiscard]] const char* begin_path() noexcept;
-    bool push_one() noexcept;
-    bool push_moves() noexcept;
+    bool push_one(bool may_begin) noexcept;
+    bool push_moves(bool may_begin) noexcept;
     [[nodiscard]] bool pauses() const noexcept;
     [[nodiscard]] bool knows_enough() noexcept;
     [[nodiscard]] bool rests() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
     [[nodiscard]] bool at_known_end() const noexcept { return stands() && stream_->exhausted(); }
-    void follow() noexcept;
+    void follow(bool planned) noexcept;
     [[nodiscard]] SpindleSync::Leg leg(unsigned n, const Mm& from) noexcept;
     [[nodiscard]] bool goes_on(unsigned n) noexcept;
     [[nodiscard]] bool overlaps(unsigned n) noexcept;
@@ -147,18 +160,12 @@ private:
     PacedValue ratio_{1.0}; // 0: held, too
     PacedValue rapids_{1.0};
     PacedValue most_{0.0}; // feed, mm/s
+    State state_ = State::no_path;
     bool sent_abort_ = false;
-    bool failed_ = false;   // what is queued is not travelled
-    bool planning_ = false; // a path is begun
-    bool stepped_ = false;  // it is one move, because of single step
-    bool leads_ = false;    // it begins with a line to `lead_to_`
-    enum class Tap { in, back, stops, returns } tap_ = Tap::in;
-    bool syncs_ = false; // or a move that follows the spindle
-    bool waits_ = false; // at standstill before move pushed_
-    bool may_begin_ = false;
+    bool failed_ = false;  // what is queued is not travelled
+    bool stepped_ = false; // the path is one move, because of single step
     bool has_now_ = false;
-    bool refills_ = false;    // the ring, by the old plan
-    bool unfinished_ = false; // the share of the period was not enough
+    bool refills_ = false; // the ring, by the old plan
 };
 
 } // namespace splinefeed::linuxcnc

@@ -90,8 +90,8 @@ void TpMotion::take_apart() noexcept {
         std::array<double, 3> radial{};
         const double radius = arm(rest.to, radial);
         const double here = arm(at_, radial);
-        leads_ = std::fabs(here - radius) > most_off * radius;
-        for (unsigned k = 0; leads_ && k < 3; ++k) {
+        state_ = std::fabs(here - radius) > most_off * radius ? State::leads : state_;
+        for (unsigned k = 0; state_ == State::leads && k < 3; ++k) {
             from[k] += radial[k] * (radius / here - 1.0);
         }
         lead_to_ = from;
@@ -106,7 +106,6 @@ void TpMotion::take_apart() noexcept {
 
 // A path begins with a line to the arc, where the machine stands too far from it: in a rounded corner.
 Status TpMotion::lead() noexcept {
-    leads_ = false;
     QueuedMove& arc = move(first_);
     arc.stands_before = false;
     PathElement<double> line = arc.element;

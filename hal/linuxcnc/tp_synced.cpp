@@ -12,9 +12,8 @@ namespace splinefeed::linuxcnc {
 // Lengths are those of X Y Z, by which a pitch is meant; without them, of all axes.
 SpindleSync::Leg TpMotion::leg(unsigned n, const Mm& from) noexcept {
     const QueuedMove& here = move(n);
-    const bool to_bottom = here.taps && tap_ != Tap::returns;
-    const Mm& to = to_bottom ? here.bottom : here.to;
-    const Mm way = difference(to, from, machine_.axes);
+    const bool to_bottom = here.taps && state_ != State::tap_returns;
+    const Mm way = difference(to_bottom ? here.bottom : here.to, from, machine_.axes);
     const double all_sq = dot(way, way, machine_.axes);
     const double xyz_sq = dot(way, way, smaller(machine_.axes, 3));
     SpindleSync::Leg out;
@@ -55,14 +54,14 @@ double TpMotion::left_to_join() noexcept {
 
 void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     const bool stops = input.abort != 0 || failed_;
-    if (waits_ && (stops || input.may_begin == 0)) {
+    if (state_ == State::sync_waits && (stops || input.may_begin == 0)) {
         if (stops) {
             forget();
         }
         return;
     }
-    if (waits_) {
-        waits_ = false;
+    if (state_ == State::sync_waits) {
+        state_ = State::sync;
         sync_from_ = at_;
         pushed_ = first_ + 1U;
         sync_.begin(leg(first_, at_), turns_, turns_per_s_);
@@ -74,7 +73,7 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
     } else {
         follow_spindle();
     }
-    const bool to_bottom = move(first_).taps && tap_ != Tap::returns;
+    const bool to_bottom = move(first_).taps && state_ != State::tap_returns;
     for (const unsigned k : indices(machine_.axes)) {
         const double corner = to_bottom ? move(first_).bottom[k] : move(first_).to[k];
         at_[k] = sync_from_[k] + (corner - sync_from_[k]) * sync_.first().part();
@@ -92,7 +91,7 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
                 ++pushed_;
             }
         }
-        syncs_ = sync_.joined();
+        state_ = sync_.joined() ? State::sync : State::no_path;
         sync_.leave();
         output.complete = first_ == last_ ? 1 : 0;
         if (output.complete != 0) {
@@ -103,30 +102,30 @@ void TpMotion::run_synced(const tpc_input& input, tpc_output& output) noexcept {
 
 // In with the spindle, back with it when it turns back, and from where the machine then stops to where it began.
 void TpMotion::tap(tpc_output& output) noexcept {
-    switch (tap_) {
-    case Tap::in:
+    switch (state_) {
+    case State::sync:
         follow_spindle();
         if (sync_.first().left() <= 0.0) {
-            tap_ = Tap::back;
+            state_ = State::tap_back;
             output.reverses = 1;
         }
         break;
-    case Tap::back:
+    case State::tap_back:
         follow_spindle();
         if (sync_.first().part() <= 0.0) {
-            tap_ = Tap::stops;
+            state_ = State::tap_stops;
             output.reverses = 2;
         }
         break;
-    case Tap::stops:
+    case State::tap_stops:
         if (sync_.rests()) {
-            tap_ = Tap::returns;
+            state_ = State::tap_returns;
             sync_from_ = at_;
             sync_.begin(leg(first_, at_), 0.0, 0.0);
         }
         sync_.brake();
         break;
-    case Tap::returns: sync_.go_on(); break;
+    default: sync_.go_on(); break; // tap_returns
     }
 }
 

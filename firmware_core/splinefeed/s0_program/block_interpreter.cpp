@@ -55,7 +55,7 @@ void BlockInterpreter::restart() noexcept {
 void BlockInterpreter::begin_next() noexcept {
     cycle_words_ = {};
     drop_block();
-    percent_ = any_block_ = ended_ = false;
+    progress_ = Progress::fresh;
     emitted_ = place_.machine;
 }
 
@@ -136,7 +136,7 @@ BlockStatus BlockInterpreter::read_block(std::string_view text, std::uint32_t li
 }
 
 BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_number) noexcept {
-    if (ended_) {
+    if (has_ended()) {
         return {};
     }
     if (has_steps() || in_pieces_) {
@@ -148,7 +148,7 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
     if (status.ok() && kind == LineKind::percent) {
         status = execute_percent();
     } else if (status.ok() && kind == LineKind::homing) {
-        any_block_ = true;
+        progress_ = Progress::begun;
         end_curve();
         plan_.manner = {};
         plan_homing(0);
@@ -168,8 +168,8 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
 }
 
 BlockStatus BlockInterpreter::execute_percent() noexcept {
-    if (!any_block_ && !percent_) {
-        percent_ = true;
+    if (progress_ == Progress::fresh) {
+        progress_ = Progress::begun;
         return {};
     }
     if (nurbs_.is_open()) {
@@ -181,7 +181,7 @@ BlockStatus BlockInterpreter::execute_percent() noexcept {
     cutter_.keep_plan();
     end_curve();
     block_.clear();
-    ended_ = true;
+    progress_ = Progress::ended;
     stage_ = 0;
     return {};
 }
@@ -239,7 +239,7 @@ BlockStatus BlockInterpreter::execute() noexcept {
     if (!leaves_curve_open()) {
         end_curve();
     }
-    any_block_ = true;
+    progress_ = Progress::begun;
     stage_ = 0;
     return {};
 }

@@ -67,7 +67,7 @@ public:
     void obey_refused() noexcept;
     /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
     /// block.
-    [[nodiscard]] bool has_ended() const noexcept { return ended_; }
+    [[nodiscard]] bool has_ended() const noexcept { return progress_ == Progress::ended; }
 
     /// After the machine has executed a probe move: where the contact was, and where the machine stands now. Without
     /// it the contact counts as found at the end of the move.
@@ -220,9 +220,7 @@ private:
     std::uint8_t sub_step_ = 0; // of its motion
     bool settles_ = false;      // behind a rapid under G96 the spindle is to be waited for
     bool offsets_changed_ = false;
-    bool percent_ = false; // the first line was %
-    bool any_block_ = false;
-    bool ended_ = false;
+    enum class Progress : std::uint8_t { fresh, begun, ended } progress_ = Progress::fresh; // a first % begins it
 
 protected:
     // The curve through the points of G5.5, which Interpreter makes.

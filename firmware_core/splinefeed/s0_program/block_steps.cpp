@@ -106,7 +106,7 @@ bool BlockInterpreter::event_is_due() noexcept {
     case ending: return end_program();
     case stop: {
         const std::int16_t code = block_.code(CodeGroup::stop);
-        return ended_ || (code != Block::no_code && (code != 1 || settings_.optional_pause));
+        return has_ended() || (code != Block::no_code && (code != 1 || settings_.optional_pause));
     }
     default: return false;
     }
@@ -189,7 +189,7 @@ void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
     case stop: {
         const std::int16_t code = block_.code(CodeGroup::stop);
         event.number = code == Block::no_code ? 0 : code;
-        event.kind = ended_      ? EventKind::program_end
+        event.kind = has_ended() ? EventKind::program_end
                      : code == 0 ? EventKind::pause
                      : code == 1 ? EventKind::optional_pause
                                  : EventKind::pallet_pause;
@@ -217,7 +217,7 @@ bool BlockInterpreter::end_program() noexcept {
     if (code != 2 && code != 30) {
         return false;
     }
-    ended_ = true;
+    progress_ = Progress::ended;
     modal_.end_program(settings_);
     if (frame_.offsets().active == 0) {
         return false;
@@ -288,7 +288,7 @@ Pull BlockInterpreter::next_of_block(ProgramStep& out, ProgramEvent& event) noex
     }
     stage_ = all_done;
     block_.clear();
-    return ended_ ? Pull::finished : Pull::starved;
+    return has_ended() ? Pull::finished : Pull::starved;
 }
 
 } // namespace splinefeed

@@ -33,7 +33,7 @@ std::array<unsigned, 3> BlockInterpreter::plane_axes(Plane plane) const noexcept
 
 bool BlockInterpreter::ends_program() const noexcept {
     const std::int16_t code = block_.code(CodeGroup::stop);
-    return ended_ || code == 2 || code == 30;
+    return has_ended() || code == 2 || code == 30;
 }
 
 // The diameter by D of G41.1, or of a tool of the table.

@@ -31,7 +31,7 @@ BlockStatus BlockInterpreter::push_jog(std::string_view text, std::uint32_t line
         return {ProgramError::block_pending, 0, 0};
     }
     const ModalState modal = modal_;
-    const bool ended = ended_;
+    const bool ended = has_ended();
     modal_.motion = 10;
     modal_.feed = {};
     modal_.inverse_time = modal_.per_turn = false;
@@ -45,7 +45,7 @@ BlockStatus BlockInterpreter::push_jog(std::string_view text, std::uint32_t line
         status = execute();
     }
     modal_ = modal;
-    ended_ = ended;
+    progress_ = ended ? Progress::ended : progress_;
     if (!status.ok()) {
         plan_.clear();
         stage_ = all_done;

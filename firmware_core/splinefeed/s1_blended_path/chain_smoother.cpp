@@ -24,7 +24,7 @@ constexpr double left_out = 0.25;
 
 template <Scalar S>
 bool ChainSmoother<S>::has_room() const noexcept {
-    return !has_pending_ && (kind_ != Kind::chain || (!closed_ && points_.last() - front_ < look_ahead));
+    return !has_pending_ && kind_ != Kind::closed && (kind_ != Kind::chain || points_.last() - front_ < look_ahead);
 }
 
 template <Scalar S>
@@ -34,7 +34,7 @@ void ChainSmoother<S>::push(const PathElement<S>& element, std::uint32_t index) 
     }
     if (kind_ == Kind::nothing) {
         begin(element, index, start_);
-    } else if (kind_ == Kind::chain && !closed_ && goes_on(element)) {
+    } else if (kind_ == Kind::chain && goes_on(element)) {
         append(element, index);
     } else {
         pending_ = {element, index};
@@ -67,7 +67,7 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
                              const PerAxis<Position>& from) noexcept {
     points_.start(from);
     front_ = 0;
-    closed_ = left_out_ = false;
+    left_out_ = false;
     straight_ = true;
     tolerance_ = tolerance_of(element);
     spare_ = scale2(element.tolerance_mm, -chord_unit_log2) - tolerance_;
@@ -228,7 +228,7 @@ void ChainSmoother<S>::close() noexcept {
     if (left_out_ && !(length_to(end_.to, chord) < literal<S>(left_out) * tolerance_)) {
         restore();
     }
-    closed_ = true;
+    kind_ = Kind::closed;
     const std::uint64_t last = points_.last();
     if (left_out_) {
         ChainPoint<S>& point = points_[last];

@@ -51,7 +51,7 @@ public:
 private:
     static constexpr std::uint64_t look_ahead = 64;
     static constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
-    enum class Kind : std::uint8_t { nothing, single, chain };
+    enum class Kind : std::uint8_t { nothing, single, chain, closed }; // a closed chain has ended
 
     [[nodiscard]] static S tolerance_of(const PathElement<S>& element) noexcept {
         return scale2(smaller(element.tolerance_mm, element.chain_tolerance_mm), -chord_unit_log2);
@@ -96,7 +96,6 @@ private:
     Kind kind_ = Kind::nothing;
     bool straight_ = false; // all of the chain that was passed on is lines
     bool has_pending_ = false;
-    bool closed_ = false; // the chain has ended
     bool finished_ = false;
 };
 

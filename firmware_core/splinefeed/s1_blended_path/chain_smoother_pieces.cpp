@@ -27,7 +27,7 @@ constexpr int straight_log2 = -4;        // points of one line are off by less
 // The last point that a quintic from the present one may end at.
 template <Scalar S>
 std::uint64_t ChainSmoother<S>::farthest() const noexcept {
-    const std::uint64_t most = closed_ ? points_.last() : points_.last() - unsettled;
+    const std::uint64_t most = kind_ == Kind::closed ? points_.last() : points_.last() - unsettled;
     const ChainPoint<S>& first = points_[front_ + 1];
     S way = first.chord;
     for (std::uint64_t i = front_ + 1; i < most; ++i) { // a feed ends where its line does
@@ -53,7 +53,7 @@ bool ChainSmoother<S>::merged(std::uint64_t to) const noexcept {
 
 template <Scalar S>
 S ChainSmoother<S>::limit_of(std::uint64_t to) const noexcept {
-    const bool at_edge = front_ == points_.oldest() || (closed_ && to == points_.last());
+    const bool at_edge = front_ == points_.oldest() || (kind_ == Kind::closed && to == points_.last());
     const S share = at_edge ? literal<S>(edge) : literal<S>(whole_share);
     return share * (merged(to) ? literal<S>(rest) * tolerance_ : tolerance_);
 }
@@ -160,7 +160,7 @@ bool ChainSmoother<S>::pass_piece(PathElement<S>& out) noexcept {
     straight_ = false;
     const S all = merged(to) ? literal<S>(rest) * tolerance_ : tolerance_;
     out.tolerance_mm = scale2(larger(all - limit, literal<S>(of_joint) * tolerance_) + spare_, chord_unit_log2);
-    const bool ends = closed_ && to == points_.last();
+    const bool ends = kind_ == Kind::closed && to == points_.last();
     for (const unsigned k : indices(points_.axes())) {
         out.to[k] =
             ends ? points_[to].place[k] : displaced(points_[to].place[k], points_[to].moved[k], chord_unit_log2);
@@ -183,7 +183,7 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out, LineParts& parts) noexcept {
         begin_pending(out.element.to);
         return Pull::item;
     }
-    if (!closed_ && points_.last() - front_ < look_ahead) {
+    if (kind_ == Kind::chain && points_.last() - front_ < look_ahead) {
         if (!finished_ && end_.passes_end()) {
             return Pull::starved;
         }
@@ -194,13 +194,13 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out, LineParts& parts) noexcept {
     out.element.feed_mm_s = ahead.feed_mm_s;
     out.element.max_feed_mm_s = ahead.max_feed_mm_s;
     out.element.feed_along_path = end_.feed_along_path; // then all of them have it, and no tolerance of a chain
-    const bool few = closed_ && front_ == points_.oldest() && points_.last() - front_ < fewest_lines;
+    const bool few = kind_ == Kind::closed && front_ == points_.oldest() && points_.last() - front_ < fewest_lines;
     if (!pass_straight(out.element, parts) && (few || !(tolerance_ > S{}) || !pass_piece(out.element))) {
         pass_line(out.element);
     }
     ++passed_;
     out.index = points_[front_].index;
-    if (closed_ && front_ == points_.last()) {
+    if (kind_ == Kind::closed && front_ == points_.last()) {
         out.element.mode = end_.mode;
         out.element.stop_at_end = end_.stop_at_end;
         begin_pending(points_[front_].place);

@@ -36,7 +36,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
     out.length_mm = m_.length_mm;
     out.degree = current().degree;
-    out.stop_before = after_cusp_;
+    out.stop_before = cusp_ == Cusp::behind;
     fill_common(piece.at_end, out);
     for (const unsigned k : indices(current().axes)) {
         // The origin moves to the start of the cell, so that offsets stay as small as the cell.
@@ -137,10 +137,10 @@ void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
     for (const unsigned k : indices(current().axes)) {
         const Position origin = piece.origin(current(), k);
         const PerDegree<S>& control = piece.control[k];
-        cusp_from_[k] = in_cusp_ ? cusp_from_[k] : displaced(origin, control[0], current().unit_log2);
+        cusp_from_[k] = cusp_ == Cusp::in ? cusp_from_[k] : displaced(origin, control[0], current().unit_log2);
         cusp_to_[k] = displaced(origin, control[static_cast<unsigned>(current().degree)], current().unit_log2);
     }
-    in_cusp_ = true;
+    cusp_ = Cusp::in;
 }
 
 // The rest of a cusp, or a piece that a float cannot halve any more: its chord, from stop to stop.
@@ -163,8 +163,7 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     out.stop_before = true;
     out.origin = cusp_from_;
     fill_common(at_end, out);
-    in_cusp_ = false;
-    after_cusp_ = true;
+    cusp_ = Cusp::behind;
 }
 
 // Makes the next segment current. Unless it stops, it waits for the one after it: a stop at its end shapes its cells.
@@ -249,12 +248,12 @@ Pull ArcLength<S>::next(Cell<S>& out, WorkBudget& work) noexcept {
         if (const Verdict verdict = judge(top()); verdict == Verdict::coarse) {
             split();
         } else if (verdict == Verdict::fine) {
-            if (in_cusp_) {
+            if (cusp_ == Cusp::in) {
                 fill_chord(false, out); // it comes first; this piece is judged again
                 return Pull::item;
             }
             fill(top(), out);
-            after_cusp_ = false;
+            cusp_ = Cusp::none;
             leave();
             return Pull::item;
         } else {

@@ -30,7 +30,8 @@ public:
         travelled_ = {};
         segments_ = 0;
         depth_ = 0;
-        has_current_ = has_ahead_ = in_cusp_ = after_cusp_ = false;
+        has_current_ = has_ahead_ = false;
+        cusp_ = Cusp::none;
         stop_before_ = stop_after_ = true;
         slow_before_ = slow_ = slow_after_ = false;
     }
@@ -98,8 +99,8 @@ private:
     std::uint8_t current_ = 0; // index in slots_
     bool has_current_ = false;
     bool has_ahead_ = false;
-    bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ will be passed as one chord
-    bool after_cusp_ = false; // the previous cell was such a chord
+    /// `in`: pieces from cusp_from_ to cusp_to_ will be passed as one chord. `behind`: the previous cell was such one.
+    enum class Cusp : std::uint8_t { none, in, behind } cusp_ = Cusp::none;
     bool stop_before_ = true;
     bool stop_after_ = true;
     bool slow_before_ = false; // the segment before this one is passed slowly, this one, the one after it

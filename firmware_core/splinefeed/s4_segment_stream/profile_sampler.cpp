@@ -61,7 +61,6 @@ Pull ProfileSampler<S, X>::enter_segment(UnderrunPolicy underrun, WorkBudget& wo
     }
     motion_ = ProfileMotion<X>(plan_->profile_segment(), converted<X>(plan_->cell().length_mm), segments_per_s_);
     waypoint_ = plan_->cell().waypoint;
-    in_segment_ = true;
     work.charge();
     return Pull::item;
 }
@@ -121,7 +120,7 @@ bool ProfileSampler<S, X>::follow_steering(UnderrunPolicy underrun, WorkBudget& 
         return steered != Steered::busy;
     }
     elapsed_ = X{};
-    in_segment_ = false;
+    place_ = Place::between;
     if (plan_->standing()) {
         rest(); // so slow that the last control point is the stop
     }
@@ -203,14 +202,14 @@ bool ProfileSampler<S, X>::arrive() noexcept {
     }
     rest();
     elapsed_ = X{};
-    advanced_ = in_segment_ = false;
+    place_ = Place::between;
     return true;
 }
 
 // An underrun may interrupt it anywhere; it continues where it was.
 template <Scalar S, Scalar X>
 Pull ProfileSampler<S, X>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
-    if (in_segment_ && !advanced_ && (steers_ || plan_->steering().pending())) {
+    if (place_ == Place::on_segment && (steers_ || plan_->steering().pending())) {
         steers_ = !follow_steering(underrun, work);
         if (steers_ && underrun != UnderrunPolicy::urgent) {
             return Pull::busy;
@@ -220,21 +219,21 @@ Pull ProfileSampler<S, X>::next(UnderrunPolicy underrun, WorkBudget& work) noexc
         --repeats_;
         return Pull::item;
     }
-    const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun, work);
-    if (!started_ && (entered == Pull::item || entered == Pull::held)) {
+    const Pull entered = place_ == Place::on_segment ? Pull::item : enter_segment(underrun, work);
+    if (place_ == Place::fresh && (entered == Pull::item || entered == Pull::held)) {
         plan_->cell().position_at(X{}, origin_);
         previous_ = position_ = origin_;
-        started_ = resting_ = true;
+        resting_ = true;
+        place_ = Place::between;
     }
     if (entered != Pull::item) {
         return entered;
     }
-    if (!advanced_) {
+    if (place_ != Place::past) {
         elapsed_ += may_leave() ? literal<X>(1.0 + head_start) : from_integer<X>(1);
         older_ = previous_;
         previous_ = position_;
         resting_ = false;
-        advanced_ = true;
     }
     for (;;) {
         if (arrive()) {
@@ -245,7 +244,7 @@ Pull ProfileSampler<S, X>::next(UnderrunPolicy underrun, WorkBudget& work) noexc
         }
         elapsed_ -= motion_.duration();
         plan_->advance();
-        in_segment_ = false;
+        place_ = Place::past;
         const bool may_wait = underrun != UnderrunPolicy::urgent;
         const Pull pull = may_wait && work.spent() ? Pull::busy : enter_segment(underrun, work);
         if (pull != Pull::item) {
@@ -253,7 +252,7 @@ Pull ProfileSampler<S, X>::next(UnderrunPolicy underrun, WorkBudget& work) noexc
         }
     }
     plan_->cell().position_at(fraction_at(elapsed_), position_);
-    advanced_ = false;
+    place_ = Place::on_segment;
     return Pull::item;
 }
 

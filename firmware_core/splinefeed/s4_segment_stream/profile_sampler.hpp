@@ -18,10 +18,13 @@ public:
     ProfileSampler(SampledPlan<S, X>& plan, const MotionLimits<S>& limits) noexcept;
 
     Pull next(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
-    [[nodiscard]] bool at_rest() const noexcept override { return !in_segment_ && repeats_ == 0 && !advanced_; }
+    [[nodiscard]] bool at_rest() const noexcept override { return place_ <= Place::between && repeats_ == 0; }
     void clear() noexcept override {}
 
 private:
+    /// `past`: the end of a profile segment; elapsed_ already holds the next sample's time.
+    enum class Place : std::uint8_t { fresh, between, on_segment, past };
+
     Pull enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     bool follow_steering(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] X braked(X x, X speed) const noexcept;
@@ -46,11 +49,9 @@ private:
     int axes_ = 0;
     int repeats_ = 0;              // samples that are still to be repeated at a stop
     bool between_samples_ = false; // a motion may arrive at a stop, and leave it, between samples
-    bool started_ = false;
-    bool resting_ = false; // the last three samples are equal
-    bool in_segment_ = false;
-    bool advanced_ = false; // elapsed_ already holds the next sample's time
-    bool steers_ = false;   // the plan is about to follow the steering
+    bool resting_ = false;         // the last three samples are equal
+    Place place_ = Place::fresh;
+    bool steers_ = false; // the plan is about to follow the steering
 };
 
 } // namespace splinefeed
