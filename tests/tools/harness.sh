@@ -24,25 +24,25 @@ fails() {
 # tests FUNCTION_BODY: a program that lists its tests, or runs the one that it is told, as a script.
 tests() {
     # shellcheck disable=SC2016 # $1 is the script's own
-    printf '#!/bin/bash\nif [[ $1 == --list-test-names-only ]]; then\n%s\nfi\n%s\n' "$1" "${2-}" >"$scratch/tests"
+    printf '#!/bin/bash\nif [[ $1 == --list-tags ]]; then\n%s\nfi\n%s\n' "$1" "${2-}" >"$scratch/tests"
     chmod +x "$scratch/tests"
 }
 list() { cmake -DPROGRAM="$scratch/tests" -DPREFIX=area -DFILE="$scratch/CTestTestfile.cmake" -P cmake/list_tests.cmake; }
 
 fails "a filter that no test matches" "$program" "no test is called so"
 # shellcheck disable=SC2016 # $$ is the script's own
-tests 'echo one; echo two; kill -SEGV $$'
+tests 'echo; echo "  1  [#one]"; kill -SEGV $$'
 fails "a program that crashes while it lists its tests" list
-tests 'echo one; echo two; exit 1'
+tests 'echo; echo "  1  [#one]"; echo "  1  [two]"; exit 1'
 fails "a program that ends while it lists its tests" list
 tests 'exit 0'
 fails "a program without tests" list
 
-tests 'echo "one; [two], three"; exit 1' 'echo "SKIPPED: no reason"; echo "All tests passed (1 assertion in 1 test case)"'
+tests 'echo; echo "  2  [#one]"; exit 1' 'echo "SKIPPED: no reason"; echo "All tests passed (1 assertion in 2 test cases)"'
 list
 ctest --test-dir "$scratch" >"$scratch/told"
-said 1 'area/one; \[two\], three .*\*\*\*Skipped' "$(<"$scratch/told")"
-tests 'echo one; exit 1' 'echo "SKIPPED: a part"; echo "test cases: 1 | 1 failed"; exit 1'
+said 1 'area/one .*\*\*\*Skipped' "$(<"$scratch/told")"
+tests 'echo; echo "  2  [#one]"; exit 1' 'echo "SKIPPED: a part"; echo "test cases: 2 | 1 passed | 1 failed"; exit 1'
 list
 fails "a test that fails and skips a part" ctest --test-dir "$scratch"
 said 1 '0% tests passed, 1 tests failed out of 1' "$(<"$scratch/told")"

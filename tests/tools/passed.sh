@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# passed.sh: the labels of the test programs that have passed with the same bytes beside the same files.
+# passed.sh: the labels of the test programs and fuzzers that have passed with the same bytes beside the same files.
 # passed.sh --keep: all of them have passed now.
 # Files are those of the repository that are no C++; pages of docs/ count for programs that read some, the tool for those that start it.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -10,20 +10,21 @@ bytes() { git ls-files -z --cached --others --exclude-standard -- "$@" ':!*.cpp'
 files=$(bytes ':!docs' | sha256sum)
 docs=$(bytes docs | sha256sum)
 tool=$(sha256sum <build/asan/bin/splinefeed)
-for program in build/asan/bin/*_tests; do
-    area=$(basename "$program" _tests)
+for program in build/asan/bin/*_{tests,fuzz}; do
+    name=$(basename "$program")
+    area=${name%_tests}
     key=$({
         echo "$files"
         cat "$program"
         if grep -rqs 'docs/' "tests/$area"; then echo "$docs"; fi
         if grep -rqs 'tool_path' "tests/$area"; then echo "$tool"; fi
     } | sha256sum)
-    mark=$marks/$area-${key%% *}
+    mark=$marks/$name-${key%% *}
     if [[ ${1-} == --keep ]]; then
         mkdir -p $marks
-        rm -f "$marks/$area"-*
+        rm -f "$marks/$name"-*
         touch "$mark"
     elif [[ -e $mark ]]; then
-        echo "${area}_tests"
+        echo "$name"
     fi
 done
