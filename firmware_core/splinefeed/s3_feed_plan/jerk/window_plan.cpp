@@ -20,8 +20,8 @@ constexpr unsigned last_final = 60;
 constexpr double least_growth = 1.0 / 512;
 constexpr double near_cap = 0.98;
 
-constexpr std::size_t part_of(std::size_t cells, unsigned per_cent) noexcept {
-    return larger<std::size_t>(1, cells * per_cent / 100U);
+constexpr std::size_t per_cent_of(std::size_t cells, unsigned part) noexcept {
+    return larger<std::size_t>(1, cells * part / 100U);
 }
 
 } // namespace
@@ -52,7 +52,7 @@ void WindowPlan<S, R>::add_cell() noexcept {
     }
     if (leg_->cells() == leg_cells_) {
         if (!stops_at(at_ + leg_cells_)) {
-            most_sq_ = covered_.by(ahead_mm(at_ + part_of(leg_cells_, first_final)));
+            most_sq_ = covered_.by(ahead_mm(at_ + per_cent_of(leg_cells_, first_final)));
             leg_->limit(most_sq_);
         }
         leg_->search();
@@ -96,9 +96,9 @@ Search WindowPlan<S, R>::search_leg(WorkBudget& work) noexcept {
 // it brakes least, and so that a leg is left behind it; one cell at least.
 template <Scalar S, Floating R>
 std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
-    std::size_t best = part_of(cells, 50);
+    std::size_t best = per_cent_of(cells, 50);
     auto least = largest<double>();
-    for (std::size_t i = part_of(cells, last_final); i >= part_of(cells, first_final); --i) {
+    for (std::size_t i = per_cent_of(cells, last_final); i >= per_cent_of(cells, first_final); --i) {
         const SpeedState state = window_->state(first + i);
         const double braking = -state.slope / square_root(state.b);
         if (braking < least) {
