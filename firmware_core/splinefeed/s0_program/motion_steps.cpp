@@ -60,7 +60,7 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         out.bezier = piece;
         AxisPoint to = emitted_;
         for (unsigned k = 0; k < 2; ++k) {
-            to[static_cast<unsigned>(letters_.index("xy"[k]))] = piece->points[static_cast<unsigned>(piece->degree)][k];
+            to[letters_.place("xy"[k])] = piece->points[static_cast<unsigned>(piece->degree)][k];
         }
         fill_move(out, to);
         out.shape = MoveShape::bezier;

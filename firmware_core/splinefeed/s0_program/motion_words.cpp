@@ -283,7 +283,7 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     plan_.kind = PlanKind::cycle;
     const AxisPoint end = cycle.end();
     AxisPoint bottom = end;
-    bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle.bottom();
+    bottom[letters_.place(letters_of(modal_.plane).axes[2])] = cycle.bottom();
     if (const BlockStatus status = check_reach(frame_.to_machine(bottom)); !status.ok()) {
         return status;
     }

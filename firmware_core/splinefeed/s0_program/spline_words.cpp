@@ -164,8 +164,8 @@ BlockStatus BlockInterpreter::end_nurbs() noexcept {
     }
     const SpacePoint last = nurbs_.last();
     AxisPoint machine = place_.machine;
-    machine[static_cast<unsigned>(letters_.index('x'))] = last[0];
-    machine[static_cast<unsigned>(letters_.index('y'))] = last[1];
+    machine[letters_.place('x')] = last[0];
+    machine[letters_.place('y')] = last[1];
     plan_.kind = PlanKind::nurbs;
     modal_.motion = ModalState::no_motion;
     place_ = {frame_.to_program(machine), machine};

@@ -10,7 +10,7 @@ bool BlockInterpreter::follow_radius(const ProgramStep& step, ProgramEvent& even
         (event.kind == EventKind::spindle_speed || event.kind == EventKind::spindle_clockwise ||
          event.kind == EventKind::spindle_counterclockwise)) {
         if (modal_.surface.applies()) {
-            event.value = modal_.surface.at(frame_.to_program(emitted_)[static_cast<unsigned>(letters_.index('x'))]);
+            event.value = modal_.surface.at(frame_.to_program(emitted_)[letters_.place('x')]);
         }
         told_speed_ = event.value;
     }
@@ -22,8 +22,7 @@ bool BlockInterpreter::follow_radius(const ProgramStep& step, ProgramEvent& even
         return false;
     }
     const bool is_arc = step.shape == MoveShape::arc;
-    surface_.begin(step, *manner_, frame_, static_cast<unsigned>(letters_.index('x')),
-                   plane_axes(is_arc ? step.arc->plane : Plane::xy),
+    surface_.begin(step, *manner_, frame_, letters_.place('x'), plane_axes(is_arc ? step.arc->plane : Plane::xy),
                    {letters_.index('x'), letters_.index('y'), letters_.index('z')});
     return true;
 }

@@ -52,8 +52,8 @@ bool BlockInterpreter::next_of_thread(ProgramStep& out) noexcept {
         return true;
     }
     AxisPoint at = frame_.to_program(emitted_);
-    at[static_cast<unsigned>(letters_.index('x'))] = move.x;
-    at[static_cast<unsigned>(letters_.index('z'))] = move.z;
+    at[letters_.place('x')] = move.x;
+    at[letters_.place('z')] = move.z;
     plan_.move = move.cuts ? MoveKind::turning : MoveKind::rapid;
     if (move.cuts) {
         static_cast<void>(modal_.feed_of_turns(move.way_of_turn, plan_.manner.feed)); // plan_thread() has tried it

@@ -2,6 +2,7 @@
 // AxisLetters: which axis of the machine a letter of the program means.
 #pragma once
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/s0_program/dialects/program_settings.hpp"
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
@@ -30,6 +31,12 @@ public:
             }
         }
         return -1;
+    }
+    /// @pre the machine has it
+    [[nodiscard]] constexpr unsigned place(char letter) const noexcept {
+        const int axis = index(letter);
+        SPLINEFEED_ASSERT(axis >= 0);
+        return axis < 0 ? 0U : static_cast<unsigned>(axis); // where a compiler cannot see that, it warns of -1
     }
     /// Bit n for the n-th letter of the alphabet, of all axes.
     [[nodiscard]] constexpr std::uint32_t bits() const noexcept { return bits_; }
