@@ -15,53 +15,34 @@ namespace {
 constexpr std::size_t longest_name = 64; // beyond, nobody has mistyped anything
 constexpr std::size_t most_listed = 12;  // names that a sentence can hold
 
-/// What people from other programs call a thing; words of names here.
+/// A word of names here, and what people from other programs call it.
 struct Meaning {
-    std::string_view word;
     std::string_view here;
+    std::string_view words;
 };
 
 constexpr std::array meanings{
-    Meaning{"speed", "velocity"},
-    Meaning{"seek", "velocity"},
-    Meaning{"rapid", "velocity"},
-    Meaning{"vmax", "velocity"},
-    Meaning{"vel", "velocity"},
-    Meaning{"rate", "velocity"},
-    Meaning{"amax", "acceleration"},
-    Meaning{"accel", "acceleration"},
-    Meaning{"deceleration", "braking"},
-    Meaning{"decel", "braking"},
-    Meaning{"limits", "travel"},
-    Meaning{"limit", "travel"},
-    Meaning{"range", "travel"},
-    Meaning{"stroke", "travel"},
-    Meaning{"scale", "steps"},
-    Meaning{"pulses", "steps"},
-    Meaning{"counts", "steps"},
-    Meaning{"feedrate", "feed"},
-    Meaning{"reverse", "invert"},
-    Meaning{"reversed", "invert"},
-    Meaning{"type", "kind"},
-    Meaning{"letter", "name"},
-    Meaning{"port", "drive"},
-    Meaning{"address", "drive"},
-    Meaning{"slave", "unit"},
-    Meaning{"id", "unit"},
-    Meaning{"baudrate", "baud"},
-    Meaning{"bits", "stop"},
-    Meaning{"stop", "hold"},
-    Meaning{"pause", "hold"},
-    Meaning{"start", "resume"},
-    Meaning{"continue", "resume"},
-    Meaning{"cancel", "abort"},
-    Meaning{"feed", "override"},
-    Meaning{"simulate", "run"},
-    Meaning{"execute", "run"},
-    Meaning{"output", "trace"},
-    Meaning{"config", "machine"},
-    Meaning{"verify", "check"},
-    Meaning{"test", "check"},
+    Meaning{"velocity", "speed seek rapid vmax vel rate"},
+    Meaning{"acceleration", "amax accel"},
+    Meaning{"braking", "deceleration decel"},
+    Meaning{"travel", "limits limit range stroke"},
+    Meaning{"steps", "scale pulses counts"},
+    Meaning{"feed", "feedrate"},
+    Meaning{"invert", "reverse reversed"},
+    Meaning{"kind", "type"},
+    Meaning{"name", "letter"},
+    Meaning{"drive", "port address"},
+    Meaning{"unit", "slave id"},
+    Meaning{"baud", "baudrate"},
+    Meaning{"stop", "bits"},
+    Meaning{"hold", "stop pause"},
+    Meaning{"resume", "start continue"},
+    Meaning{"abort", "cancel"},
+    Meaning{"override", "feed"},
+    Meaning{"run", "simulate execute"},
+    Meaning{"trace", "output"},
+    Meaning{"machine", "config"},
+    Meaning{"check", "verify test"},
 };
 
 /// Words that many names have: units, and whether a value is the largest.
@@ -87,7 +68,9 @@ std::vector<std::string> words_of(std::string_view name) {
 bool means(std::string_view word, std::string_view here) {
     constexpr std::size_t shortest_part = 3; // "acc" of "acceleration"
     return word == here || (word.size() >= shortest_part && here.substr(0, word.size()) == word) ||
-           std::ranges::any_of(meanings, [&](const Meaning& of) { return of.word == word && of.here == here; });
+           std::ranges::any_of(meanings, [&](const Meaning& of) {
+               return of.here == here && std::ranges::count(words_of(of.words), word) > 0;
+           });
 }
 
 /// The known name that has all words of the name, or words that mean the same, and the fewest others.

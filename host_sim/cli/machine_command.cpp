@@ -9,7 +9,6 @@
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/serve/grbl_machine.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {

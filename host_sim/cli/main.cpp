@@ -8,7 +8,6 @@
 
 #include <csignal>
 #include <exception>
-#include <iostream>
 
 int main(int argc, char** argv) {
     using namespace splinefeed::host;

@@ -3,32 +3,9 @@
 #include "host_sim/config/machine_file.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace splinefeed::host {
-
-namespace {
-
-constexpr std::string_view default_text = R"(name = "default machine"
-[path]
-max_feed_mm_s = 100
-[[axis]]
-name = "x"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-[[axis]]
-name = "y"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-[[axis]]
-name = "z"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-)";
-
-} // namespace
 
 double standstill_window_counts(const MachineDescription& machine, unsigned axis) noexcept {
     constexpr double default_mm = 0.01;
@@ -39,7 +16,13 @@ double standstill_window_counts(const MachineDescription& machine, unsigned axis
 }
 
 MachineDescription default_machine(const std::vector<std::string>& settings) {
-    MachineDescription machine = parse_machine(default_text, {}, settings);
+    std::string text = "name = 'default machine'\n[path]\nmax_feed_mm_s = 100\n";
+    for (const char axis : {'x', 'y', 'z'}) {
+        text += fmt::format("[[axis]]\nname = '{}'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
+                            "steps_per_mm = 320\n",
+                            axis);
+    }
+    MachineDescription machine = parse_machine(text, {}, settings);
     machine.axis_line = {};
     return machine;
 }

@@ -6,7 +6,6 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/config/baud_rate.hpp"
-#include "host_sim/config/gpio_address.hpp"
 
 #include "splinefeed/base/capacity.hpp"
 

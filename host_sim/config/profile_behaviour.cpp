@@ -3,8 +3,6 @@
 #include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace splinefeed::host {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The sections of a profile that say where numbers are: [link], [[field]], [[group]].
-#include "host_sim/base/nearest_name.hpp"
 #include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 #include "splinefeed/hal/modbus/link/link_address.hpp"

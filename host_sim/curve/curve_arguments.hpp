@@ -34,7 +34,6 @@ struct CurveArguments {
 
 /// The names of all methods that --curve may name.
 [[nodiscard]] std::vector<std::string_view> curve_names();
-/// Whether the curve of that name passes its waypoints.
 [[nodiscard]] bool passes_waypoints(std::string_view curve_name) noexcept;
 
 /// Reads the options and fills in the method's defaults: g2 chordal, catmull-rom centripetal with tension 1/2, corners

@@ -59,7 +59,6 @@ struct DriveFaults {
 
     /// Whether anything depends on chance.
     [[nodiscard]] bool random() const noexcept;
-    /// Whether an event of that kind lasts at that instant.
     [[nodiscard]] bool lasts(EventKind kind, double time_s) const noexcept;
     /// What the drive itself does wrong at that instant.
     [[nodiscard]] ModelFaults of_model(double time_s) const noexcept;
@@ -71,7 +70,6 @@ struct DriveFaults {
 /// All faults, as they are written: "drop=P, corrupt=P, ..., freeze@S:MS, ...".
 [[nodiscard]] std::string list_drive_faults();
 
-/// The faults of one exchange.
 struct ExchangeFaults {
     bool drop_request = false; ///< the request is lost before it has an effect
     bool drop_reply = false;

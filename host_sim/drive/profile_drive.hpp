@@ -12,7 +12,6 @@
 #include "host_sim/drive/register_file.hpp"
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace splinefeed::host {

@@ -4,9 +4,6 @@
 // switched off.
 #include "host_sim/live/live_machine.hpp"
 
-#include "splinefeed/base/units.hpp"
-
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 

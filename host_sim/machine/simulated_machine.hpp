@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace splinefeed {

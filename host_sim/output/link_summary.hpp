@@ -36,7 +36,6 @@ struct LinkSummary {
 /// "bus_time_s":}`; with targets it has "targets" instead of "segments", and also "target_period_s",
 /// "between_targets_mm" and "latest_target_s".
 [[nodiscard]] nlohmann::ordered_json to_json(const LinkSummary& link);
-/// Its JSON schema.
 [[nodiscard]] nlohmann::ordered_json link_schema();
 
 /// One line per drive; losses by name, if there were any.
@@ -81,7 +80,6 @@ struct GpioSummary {
 
 /// The keys are the names of the members, with `_s` or `_mm` if they have it.
 [[nodiscard]] nlohmann::ordered_json to_json(const GpioSummary& gpio);
-/// Its JSON schema.
 [[nodiscard]] nlohmann::ordered_json gpio_schema();
 /// One line about the edges, and one per change.
 [[nodiscard]] std::string to_text(const GpioSummary& gpio);

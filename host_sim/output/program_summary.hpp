@@ -37,7 +37,6 @@ struct ProgramSummary {
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ProgramSummary& summary);
-/// Its JSON schema.
 [[nodiscard]] nlohmann::ordered_json program_schema();
 /// [{"t": 1.5, "what": "change_tool", "line": 4, "number": 2}, ...]: members that say nothing are left out.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<ProgramSummary::Event>& events);

@@ -7,7 +7,6 @@
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/hal/motion/jerk_memory.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 

@@ -11,7 +11,6 @@
 #include "splinefeed/hal/motion_port.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "host_sim/ports/target_table.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/nearest_name.hpp"
 #include "host_sim/config/drive_address.hpp"
 
 #include <array>

@@ -7,8 +7,6 @@
 #include "splinefeed/s1_blended_path/path_element.hpp"
 #include "splinefeed/splines/bezier_piece.hpp"
 
-#include <vector>
-
 namespace splinefeed::host {
 
 /// An arc, a spiral or a helix: radius, angle and height change evenly from `from` to `to`. [mm]

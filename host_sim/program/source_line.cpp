@@ -6,7 +6,6 @@
 #include "host_sim/base/text_file.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <ios>
 
 namespace splinefeed::host {

@@ -46,7 +46,6 @@ private:
     std::uint64_t rows_ = 0;
 };
 
-/// All rows of a table.
 class TableRows final : public WaypointRows {
 public:
     TableRows(std::shared_ptr<const WaypointTable> table, WaypointCheck check)

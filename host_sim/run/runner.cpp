@@ -2,7 +2,6 @@
 #include "host_sim/run/runner.hpp"
 
 #include "host_sim/base/abandon.hpp"
-#include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/live/live_machine.hpp"

@@ -6,7 +6,6 @@
 #include "host_sim/curve/methods/description.hpp"
 #include "splinefeed/surfaces/bspline_surface.hpp"
 
-#include <string>
 #include <string_view>
 #include <vector>
 

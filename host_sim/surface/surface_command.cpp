@@ -7,8 +7,6 @@
 #include "host_sim/surface/surface_arguments.hpp"
 #include "splinefeed/number/position.hpp"
 
-#include <algorithm>
-
 namespace splinefeed::host {
 
 namespace {

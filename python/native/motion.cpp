@@ -8,8 +8,6 @@
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/kept_motion.hpp"
 
-#include "splinefeed/base/units.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

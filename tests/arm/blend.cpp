@@ -3,6 +3,7 @@
 // what corners, joints and points of chains cost. QEMU runs it with -icount shift=4: then instructions_now() counts in
 // 64 instructions, and a call may take 42 million.
 #include "instructions.hpp"
+#include "integer_hash.hpp"
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 #include "write_number.hpp"
 #include "write_value.hpp"
@@ -20,21 +21,6 @@ constexpr std::int64_t half_pi = 1570796;
 
 using Path = TolerancePath<Fixed>;
 alignas(Path) unsigned char memory[sizeof(Path)];
-
-/// FNV-1a, 64 bits.
-class Hash {
-public:
-    void add(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) {
-            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
-            value >>= 8;
-        }
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-private:
-    std::uint64_t state_ = 0xcbf29ce484222325U;
-};
 
 /// Moves by number, in um.
 struct Place {
@@ -119,7 +105,7 @@ template <class Moves>
 void run() {
     auto& path = *new (memory) Path(axes, {literal<Fixed>(0.001)});
     Moves moves;
-    Hash hash;
+    IntegerHash hash;
     bool good = path.start({}).ok();
     unsigned pushed = 0;
     std::uint32_t counts = 0;

@@ -2,6 +2,7 @@
 // The G-code interpreter on a microcontroller: a hash over every item of a program, which the host must print, too, and
 // what a block costs.
 #include "instructions.hpp"
+#include "integer_hash.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "write_value.hpp"
 
@@ -44,20 +45,9 @@ constexpr std::string_view program[] = {
     "M30"sv,
 };
 
-/// FNV-1a, 64 bits.
-class Hash {
+class Hash : public IntegerHash {
 public:
-    [[gnu::noinline]] void add(std::int64_t number) {
-        auto value = static_cast<std::uint64_t>(number);
-        for (int i = 0; i < 8; ++i) {
-            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
-            value >>= 8;
-        }
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-private:
-    std::uint64_t state_ = 0xcbf29ce484222325U;
+    [[gnu::noinline]] void add(std::int64_t number) { IntegerHash::add(static_cast<std::uint64_t>(number)); }
 };
 
 void add_item(Hash& hash, const ProgramItem<Fixed>& item) {

@@ -2,6 +2,7 @@
 // The pulse train on a microcontroller: a hash over every step and edge, which the host must print, too, and what it
 // costs.
 #include "instructions.hpp"
+#include "integer_hash.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
 #include "write_number.hpp"
 #include "write_value.hpp"
@@ -53,23 +54,12 @@ private:
     unsigned index_ = 0;
 };
 
-/// FNV-1a, 64 bits.
-class Hash {
+class Hash : public IntegerHash {
 public:
     [[gnu::noinline]] void add(std::int64_t tick, unsigned axis, bool a, bool b) {
-        mix(static_cast<std::uint64_t>(tick));
-        mix(axis * 4U + (a ? 2U : 0U) + (b ? 1U : 0U));
+        IntegerHash::add(static_cast<std::uint64_t>(tick));
+        IntegerHash::add(axis * 4U + (a ? 2U : 0U) + (b ? 1U : 0U));
     }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-private:
-    void mix(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) {
-            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
-            value >>= 8;
-        }
-    }
-    std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
 /// Instructions and calls of one kind.

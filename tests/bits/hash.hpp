@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Hash over the bits of whatever the corpus makes: FNV-1a, 64 bits, over integers in little-endian order, whatever the
-// machine's order is.
+// Hash over the bits of whatever the corpus makes.
 #pragma once
 
+#include "integer_hash.hpp"
 #include "splinefeed/s1_curve/curve_segment.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 #include "splinefeed/splines/bezier_piece.hpp"
@@ -14,14 +14,9 @@ namespace bits {
 
 inline constexpr unsigned axes = 3;
 
-class Hash {
+class Hash : public IntegerHash {
 public:
-    void add(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) {
-            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
-            value >>= 8;
-        }
-    }
+    using IntegerHash::add;
     template <splinefeed::Scalar S>
     void add_scalar(S value) {
         if constexpr (std::same_as<S, splinefeed::Fixed>) {
@@ -69,10 +64,6 @@ public:
             }
         }
     }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-private:
-    std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
 } // namespace bits

@@ -2,12 +2,7 @@
 //
 // Joints that turn by next to nothing, or whose curvature jumps by little: a plan passes them, within the limits at
 // every instant, and no tolerance makes it slower. What is emitted is compared.
-#include "splinefeed/s1_blended_path/tolerance_path.hpp"
-#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
-
-#include "support/emitted.hpp"
-#include "support/pipeline.hpp"
-#include "support/programmed_moves.hpp"
+#include "emitted_moves.hpp"
 #include "support/rounds.hpp"
 
 using namespace splinefeed_test;
@@ -15,33 +10,6 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr std::uint64_t seed = 20261130;
-
-struct Emitted {
-    std::vector<FeedSegment> segments;
-    bool endless = false;
-};
-
-template <Scalar S>
-Emitted run_of(const MoveProgram& program, const MachineSettings& machine) {
-    TolerancePath<S> path(program.axes, rules_cast<S>(path_rules(machine, program.joint_tolerance_mm)));
-    REQUIRE(path.start(position_of<S>(program.start)).ok());
-    const auto limits = MotionLimits<S>::make(machine).value();
-    AnyTrajectory<S> trajectory(path, limits, 1024);
-    Emitted out;
-    FeedSegment segment;
-    for (std::size_t next = 0;;) {
-        const Pull pull = trajectory.trajectory().next(segment);
-        if (pull == Pull::item) {
-            out.segments.push_back(segment);
-        } else if (pull == Pull::finished) {
-            return out;
-        } else if (next < program.moves.size()) {
-            REQUIRE(path.push(element_of<S>(program.moves[next++], program.axes)).ok());
-        } else {
-            REQUIRE(path.finish().ok());
-        }
-    }
-}
 
 /// Cubics of about `size` mm. Each begins in the direction of the one before but for `turn`, and with a curvature that
 /// differs by `bend` from its, to either side in turn.
@@ -90,7 +58,7 @@ TEMPLATE_TEST_CASE("kinks of all sizes keep the limits, and no tolerance makes t
             program.joint_tolerance_mm = tolerance;
             CAPTURE(round, tolerance, static_cast<double>(size), static_cast<double>(turn), static_cast<double>(bend),
                     machine.sample_period_us);
-            const Emitted run = run_of<S>(program, machine);
+            const EmittedMoves run = emit<S>(program, machine);
             require_limits(run, machine);
             const auto segments = static_cast<double>(run.segments.size());
             CHECK(segments <= 1.005 * slowest + 3.0);
@@ -101,13 +69,12 @@ TEMPLATE_TEST_CASE("kinks of all sizes keep the limits, and no tolerance makes t
 
 TEMPLATE_TEST_CASE("what decimals turn a joint by costs next to nothing", "[never_slower][kinks]", double, Fixed) {
     using S = TestType;
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 30000.0;
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 30000.0);
     for (const double tolerance : {0.0, 0.01}) {
-        const Emitted smooth = run_of<S>(chain_of(1.0L, 0.0L, 0.0L, tolerance), machine);
+        const EmittedMoves smooth = emit<S>(chain_of(1.0L, 0.0L, 0.0L, tolerance), machine);
         for (const Real turn : {1e-7L, 3e-7L, 1e-6L, 2e-6L}) {
             CAPTURE(tolerance, static_cast<double>(turn));
-            const Emitted run = run_of<S>(chain_of(1.0L, turn, 1e-4L, tolerance), machine);
+            const EmittedMoves run = emit<S>(chain_of(1.0L, turn, 1e-4L, tolerance), machine);
             require_limits(run, machine);
             CHECK(static_cast<double>(run.segments.size()) <=
                   1.005 * static_cast<double>(smooth.segments.size()) + 1.0);

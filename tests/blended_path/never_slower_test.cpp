@@ -2,11 +2,7 @@
 //
 // A tolerance never costs time: within it a program is not slower than with a stop at the end of every move. What is
 // emitted is compared.
-#include "splinefeed/s1_blended_path/tolerance_path.hpp"
-#include "splinefeed/s3_feed_plan/limits/machine_path_rules.hpp"
-
-#include "support/emitted.hpp"
-#include "support/pipeline.hpp"
+#include "emitted_moves.hpp"
 #include "support/random_moves.hpp"
 #include "support/rounds.hpp"
 
@@ -15,35 +11,6 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr std::uint64_t seed = 20261127;
-
-struct Emitted {
-    std::vector<FeedSegment> segments;
-    bool endless = false;
-};
-
-template <Scalar S>
-Emitted run_of(const MoveProgram& program, const MachineSettings& machine, bool exact_stops) {
-    TolerancePath<S> path(program.axes, rules_cast<S>(path_rules(machine, program.joint_tolerance_mm)));
-    REQUIRE(path.start(position_of<S>(program.start)).ok());
-    const auto limits = MotionLimits<S>::make(machine).value();
-    AnyTrajectory<S> trajectory(path, limits, 512);
-    Emitted out;
-    FeedSegment segment;
-    for (std::size_t next = 0;;) {
-        const Pull pull = trajectory.trajectory().next(segment);
-        if (pull == Pull::item) {
-            out.segments.push_back(segment);
-        } else if (pull == Pull::finished) {
-            return out;
-        } else if (next < program.moves.size()) {
-            auto element = element_of<S>(program.moves[next++], program.axes);
-            element.mode = exact_stops ? PathMode::exact_stop : element.mode;
-            REQUIRE(path.push(element).ok());
-        } else {
-            REQUIRE(path.finish().ok());
-        }
-    }
-}
 
 } // namespace
 
@@ -56,8 +23,8 @@ TEST_CASE("a tolerance makes no program slower than exact stops", "[never_slower
             machine.centripetal_mm_s2 = random.decades(10.0, 1e4);
         }
         CAPTURE(round, program.moves.size(), machine.centripetal_mm_s2, machine.sample_period_us);
-        const Emitted within = run_of<double>(program, machine, false);
-        const Emitted stops = run_of<double>(program, machine, true);
+        const EmittedMoves within = emit<double>(program, machine, false);
+        const EmittedMoves stops = emit<double>(program, machine, true);
         require_limits(within, machine);
         const double least = static_cast<double>(stops.segments.size());
         CHECK(static_cast<double>(within.segments.size()) <= 1.001 * least + 2.0);
@@ -82,8 +49,8 @@ TEST_CASE("corners are stops where a limit across the path makes their blend slo
     for (int i = 1; i <= 10; ++i) {
         corners.line({static_cast<Real>(5 * ((i + 1) / 2)), static_cast<Real>(5 * (i / 2))}).tolerance_mm = 0.05;
     }
-    const Emitted within = run_of<double>(corners, machine, false);
-    const Emitted stops = run_of<double>(corners, machine, true);
+    const EmittedMoves within = emit<double>(corners, machine, false);
+    const EmittedMoves stops = emit<double>(corners, machine, true);
     require_limits(within, machine);
     CHECK(within.segments.size() == stops.segments.size());
 }

@@ -315,10 +315,8 @@ TEMPLATE_TEST_CASE("what is made of random moves is run within every limit", "[b
         Random random(seed + 500000 + static_cast<std::uint64_t>(round));
         MoveProgram program = random_moves(random);
         program.axes = std::max(2, program.axes);
-        MachineSettings machine = machine_of(program.axes, 100.0, 1000.0, 100.0);
-        for (AxisSettings& axis : machine.axis) {
-            axis.max_jerk_mm_s3 = round % 2 == 1 ? 0.0 : 30000.0;
-        }
+        const MachineSettings machine =
+            with_jerk(machine_of(program.axes, 100.0, 1000.0, 100.0), round % 2 == 1 ? 0.0 : 30000.0);
         Real length = 0.0L;
         for (const ProgrammedMove& move : program.moves) {
             length += apart(move.from, move.to, program.axes) * (1.0L + std::fabs(move.sweep));

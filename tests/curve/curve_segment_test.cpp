@@ -6,8 +6,6 @@
 #include "splinefeed/number/exponent.hpp"
 #include "support/curve_harness.hpp"
 
-#include <bit>
-
 using namespace splinefeed;
 using namespace splinefeed_test;
 

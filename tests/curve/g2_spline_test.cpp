@@ -5,8 +5,6 @@
 
 #include "support/curve_harness.hpp"
 
-#include <type_traits>
-
 using namespace splinefeed;
 using namespace splinefeed_test;
 

@@ -6,8 +6,6 @@
 #include "splinefeed/s1_curve/polyline.hpp"
 #include "support/curve_harness.hpp"
 
-#include <utility>
-
 using namespace splinefeed;
 using namespace splinefeed_test;
 

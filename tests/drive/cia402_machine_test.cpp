@@ -4,8 +4,6 @@
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 #include "support/catch.hpp"
 
-#include <string>
-
 using namespace splinefeed::host;
 using splinefeed::hal::modbus::cia402_state;
 using splinefeed::hal::modbus::DriveState;

@@ -2,7 +2,6 @@
 #include "host_sim/drive/motor_axis.hpp"
 #include "support/catch.hpp"
 
-#include <cmath>
 #include <numbers>
 
 using namespace splinefeed::host;

@@ -4,7 +4,6 @@
 
 #include "drive/driven_drive.hpp"
 #include "host/refusal.hpp"
-#include "host_sim/base/input_error.hpp"
 #include "host_sim/config/profile_file.hpp"
 #include "support/catch.hpp"
 

@@ -7,7 +7,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-/// A drive in that state.
 std::unique_ptr<PvtBench> bench_in(PvtState state) {
     PvtDriveParameters parameters;
     parameters.axes.front().start_counts = 1000.0;

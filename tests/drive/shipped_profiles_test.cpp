@@ -3,7 +3,6 @@
 
 #include "host/refusal.hpp"
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/config/profile_file.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -19,6 +19,15 @@ using splinefeed::test::DrivenDrive;
 
 namespace {
 
+constexpr int wholes = 777; // the circle starts here, a whole count
+const Circle circle(wholes);
+const TrajectoryBuffer track = circle.track();
+
+const DriveProfile& index_profile() {
+    static const DriveProfile profile = host::find_profile("cia402-index");
+    return profile;
+}
+
 /// One axis: its drive, when its frames arrive, and how far its shaft was off.
 struct Axis {
     Axis(const std::string& profile, double start_counts, std::uint32_t period_us = 0)
@@ -46,8 +55,7 @@ struct Axis {
 /// Runs both axes of a circle; `frame(axis, arrival_us)` gives what arrives then, `interval(axis)` when the next does.
 /// The shafts are compared every half a millisecond, and must stand exactly at the end.
 template <class Frame, class Interval>
-void run(std::array<std::unique_ptr<Axis>, 2>& axes, const Circle& circle, const Frame& frame,
-         const Interval& interval) {
+void run(std::array<std::unique_ptr<Axis>, 2>& axes, const Frame& frame, const Interval& interval) {
     std::array<std::uint64_t, 2> begun_us{axes[0]->drive.now_us(), axes[1]->drive.now_us()};
     const auto end_us = static_cast<std::uint64_t>(circle.duration_s() * 1e6) + 300'000;
     for (std::uint64_t now_us = 0; now_us <= end_us; now_us += 100) {
@@ -67,8 +75,7 @@ void run(std::array<std::unique_ptr<Axis>, 2>& axes, const Circle& circle, const
     }
 }
 
-std::array<std::unique_ptr<Axis>, 2> axes_of(const std::string& profile, const Circle& circle,
-                                             std::uint32_t period_us = 0) {
+std::array<std::unique_ptr<Axis>, 2> axes_of(const std::string& profile, std::uint32_t period_us = 0) {
     std::array<std::unique_ptr<Axis>, 2> axes;
     for (std::size_t k = 0; k < 2; ++k) {
         axes[k] = std::make_unique<Axis>(profile, circle.at(0.0)[k], period_us);
@@ -77,26 +84,24 @@ std::array<std::unique_ptr<Axis>, 2> axes_of(const std::string& profile, const C
     return axes;
 }
 
-constexpr int wholes = 777; // the circle starts here, a whole count
 constexpr BlockSettings every_10_ms{.period_us = 10000, .acceleration = 1e6};
 
 /// The blocks of one axis of the circle, from its beginning on. The profile must outlive them.
-BlockStream blocks_of(const DriveProfile& profile, const Circle& circle, BlockSettings settings, int axis) {
+BlockStream blocks_of(const DriveProfile& profile, BlockSettings settings, int axis) {
     settings.axis = axis;
     BlockStream stream(profile, settings);
     stream.begin(circle.at(0.0)[static_cast<std::size_t>(axis)]);
     return stream;
 }
 
-std::array<BlockStream, 2> blocks_of_both(const DriveProfile& profile, const Circle& circle,
-                                          const BlockSettings& settings) {
-    return {blocks_of(profile, circle, settings, 0), blocks_of(profile, circle, settings, 1)};
+std::array<BlockStream, 2> blocks_of_both(const DriveProfile& profile, const BlockSettings& settings) {
+    return {blocks_of(profile, settings, 0), blocks_of(profile, settings, 1)};
 }
 
 /// The circle's first axis on a drive with blocks.
 struct BlockAxis {
-    explicit BlockAxis(const Circle& circle, const BlockSettings& settings = every_10_ms)
-        : axis("oriental-az", circle.at(0.0)[0]), stream(blocks_of(profile, circle, settings, 0)) {}
+    explicit BlockAxis(const BlockSettings& settings = every_10_ms)
+        : axis("oriental-az", circle.at(0.0)[0]), stream(blocks_of(profile, settings, 0)) {}
 
     DriveProfile profile = host::find_profile("oriental-az");
     Axis axis;
@@ -111,15 +116,12 @@ void check_end(const std::array<std::unique_ptr<Axis>, 2>& axes) {
 } // namespace
 
 TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though their frames come one after the other") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
     for (const std::uint32_t period_us : {2000U, 4000U, 10000U}) {
-        auto axes = axes_of("cia402-index", circle, period_us);
-        const DriveProfile profile = host::find_profile("cia402-index");
-        std::array<CyclicStream, 2> streams{CyclicStream(profile, {0, period_us}),
-                                            CyclicStream(profile, {1, period_us})};
+        auto axes = axes_of("cia402-index", period_us);
+        std::array<CyclicStream, 2> streams{CyclicStream(index_profile(), {0, period_us}),
+                                            CyclicStream(index_profile(), {1, period_us})};
         run(
-            axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
+            axes, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
             [&](std::size_t) { return period_us; });
         const double period_s = period_us * 1e-6;
         const double chord = circle.acceleration() * period_s * period_s / 8.0;
@@ -133,15 +135,12 @@ TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though thei
 }
 
 TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay within the chord of the interval") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t interval_us = 2500;
-    auto axes = axes_of("cia402-index", circle, 10000);
-    std::array<CyclicStream, 2> streams{CyclicStream(profile, {0, 10000, interval_us}),
-                                        CyclicStream(profile, {1, 10000, interval_us})};
+    auto axes = axes_of("cia402-index", 10000);
+    std::array<CyclicStream, 2> streams{CyclicStream(index_profile(), {0, 10000, interval_us}),
+                                        CyclicStream(index_profile(), {1, 10000, interval_us})};
     run(
-        axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
+        axes, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
         [&](std::size_t) { return interval_us; });
     const double chord = circle.acceleration() * interval_us * interval_us * 1e-12 / 8.0;
     CAPTURE(chord, axes[0]->worst, axes[1]->worst);
@@ -153,14 +152,11 @@ TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay withi
 }
 
 TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands with its acceleration") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t interval_us = 2000;
     constexpr double acceleration = 1e5;
-    auto axes = axes_of("cia402-index", circle, 10000);
+    auto axes = axes_of("cia402-index", 10000);
     Axis& axis = *axes[1];
-    CyclicStream stream(profile, {1, 10000, interval_us, acceleration});
+    CyclicStream stream(index_profile(), {1, 10000, interval_us, acceleration});
     const std::uint64_t gone_us = track.end_us() / interval_us * interval_us - 300'000;
     double velocity = 0.0;
     double furthest = 0.0;
@@ -189,18 +185,15 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
 }
 
 TEST_CASE("Cyclic targets: no shaft jumps, whenever a target takes effect, if it does") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t interval_us = 2000;
     constexpr std::uint32_t period_us = 10'000;
     const unsigned first = std::random_device{}();
     for (unsigned seed = first; seed < first + static_cast<unsigned>(splinefeed_test::rounds(20)); ++seed) {
         INFO("seed " << seed);
         std::mt19937 random(seed);
-        auto axes = axes_of("cia402-index", circle, period_us);
+        auto axes = axes_of("cia402-index", period_us);
         Axis& axis = *axes[1];
-        CyclicStream stream(profile, {1, period_us, interval_us, 1e5, Circle::speed_counts_s});
+        CyclicStream stream(index_profile(), {1, period_us, interval_us, 1e5, Circle::speed_counts_s});
         stream.begin(track.at(1, 0).position_q16);
         const std::uint64_t begun_us = axis.drive.now_us();
         double most = 0.0;
@@ -229,9 +222,6 @@ TEST_CASE("Cyclic targets: no shaft jumps, whenever a target takes effect, if it
 }
 
 TEST_CASE("Cyclic targets: a drive may have followed a target that nobody confirmed, where the path turns round") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t period_us = 10'000;
     const auto way_q16 = [&](std::uint64_t at_us) {
         return std::abs(track.at(1, at_us + period_us).position_q16 - track.at(1, at_us).position_q16);
@@ -243,7 +233,7 @@ TEST_CASE("Cyclic targets: a drive may have followed a target that nobody confir
     for (const bool confirmed : {false, true}) {
         const std::int64_t begins_q16 = track.at(1, middle_us).position_q16;
         Axis axis("cia402-index", static_cast<double>(begins_q16) / 65536.0, period_us);
-        CyclicStream stream(profile, {1, period_us, period_us, 1e5, Circle::speed_counts_s});
+        CyclicStream stream(index_profile(), {1, period_us, period_us, 1e5, Circle::speed_counts_s});
         stream.begin(begins_q16);
         axis.send(stream.frame(track, {0, middle_us, middle_us + period_us}));
         stream.on_arrival(0, confirmed ? 0 : UINT64_MAX);
@@ -256,8 +246,6 @@ TEST_CASE("Cyclic targets: a drive may have followed a target that nobody confir
 }
 
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
     // With the first two a block comes late where the axis turns: the drive runs past its target, and comes back.
     std::vector<unsigned> seeds{4204865798U, 3208929336U};
     const unsigned first = std::random_device{}();
@@ -267,7 +255,7 @@ TEST_CASE("Blocks on the fly: what arrived late is known when the next one is ma
     for (const unsigned seed : seeds) {
         INFO("seed " << seed);
         std::mt19937 random(seed);
-        BlockAxis driven(circle);
+        BlockAxis driven;
         driven.axis.send(driven.stream.prime());
         std::uint64_t now_us = 0;
         double worst = 0.0;
@@ -291,15 +279,13 @@ TEST_CASE("Blocks on the fly: what arrived late is known when the next one is ma
 }
 
 TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end exactly at its end") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
     for (const std::string name : {"cia402-kinco", "leadshine-pr", "oriental-az", "lexium32m"}) {
         for (const std::uint32_t period_us : {5000U, 10000U, 20000U}) {
             const DriveProfile profile = host::find_profile(name);
-            auto axes = axes_of(name, circle);
-            auto streams = blocks_of_both(profile, circle, {.period_us = period_us, .acceleration = 1e6});
+            auto axes = axes_of(name);
+            auto streams = blocks_of_both(profile, {.period_us = period_us, .acceleration = 1e6});
             run(
-                axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
+                axes, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
                 [&](std::size_t) { return period_us; });
             const double period_s = period_us * 1e-6;
             const RegisterField& speed = *profile.field_of(FieldRole::profile_velocity);
@@ -318,9 +304,7 @@ TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end 
 }
 
 TEST_CASE("Blocks on the fly: at each block the drive is on the path, ramps counted, and knows itself to be there") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    BlockAxis driven(circle);
+    BlockAxis driven;
     Axis& axis = driven.axis;
     BlockStream& stream = driven.stream;
     for (std::uint64_t now_us = 0; now_us + 20'000 < track.end_us(); now_us += 10'000) {
@@ -335,11 +319,9 @@ TEST_CASE("Blocks on the fly: at each block the drive is on the path, ramps coun
 }
 
 TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the drive at its speed") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
     BlockSettings late = every_10_ms;
     late.reserve_us = 15000;
-    BlockAxis driven(circle, late);
+    BlockAxis driven(late);
     Axis& axis = driven.axis;
     BlockStream& stream = driven.stream;
     for (std::uint64_t now_us = 0; now_us <= 400'000; now_us += 10'000) {
@@ -356,16 +338,14 @@ TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the driv
 }
 
 TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears when it is known to") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
     const unsigned seed = std::random_device{}();
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const DriveProfile profile = host::find_profile("leadshine-pr");
-    auto axes = axes_of("leadshine-pr", circle);
-    auto streams = blocks_of_both(profile, circle, every_10_ms);
+    auto axes = axes_of("leadshine-pr");
+    auto streams = blocks_of_both(profile, every_10_ms);
     run(
-        axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
+        axes, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
         [&](std::size_t) { return 8000 + 100 * (random() % 40); });
     CAPTURE(axes[0]->worst, axes[1]->worst);
     CHECK(axes[0]->worst < 6.0); // 12 ms: 3.6 counts of chord, and 2 ms at a speed that is out of date
@@ -374,9 +354,7 @@ TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears wh
 }
 
 TEST_CASE("Blocks on the fly: where the link dies the drive stops by itself, not far away") {
-    const Circle circle(wholes);
-    const TrajectoryBuffer track = circle.track();
-    BlockAxis driven(circle);
+    BlockAxis driven;
     Axis& axis = driven.axis;
     BlockStream& stream = driven.stream;
     for (std::uint64_t now_us = 0; now_us < 700'000; now_us += 10'000) {

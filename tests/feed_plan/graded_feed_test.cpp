@@ -18,11 +18,7 @@ struct Graded {
           arc_length(source, limits.refinement), plan(arc_length, limits, window), feed(plan, limits, literal<S>(0.3)) {
     }
 
-    static MachineSettings machine(double jerk) {
-        MachineSettings settings = machine_of(2, 100.0, 1000.0, 100.0);
-        settings.axis[0].max_jerk_mm_s3 = settings.axis[1].max_jerk_mm_s3 = jerk;
-        return settings;
-    }
+    static MachineSettings machine(double jerk) { return with_jerk(machine_of(2, 100.0, 1000.0, 100.0), jerk); }
     static BezierPath path() {
         return {line_shape(2, 1, {20.0, 0.0}), cubic_shape(0.03, 0.0, 0.05, 0.02, 0.05, 0.05),
                 line_shape(2, 1, {0.0, 20.0}), cubic_shape(0.0, 0.03, -0.02, 0.05, -0.05, 0.05),

@@ -23,13 +23,7 @@ Cell<double> cell_with_bend(double bend_per_mm, double length_mm, double turn = 
 }
 
 MachineSettings two_axes() {
-    MachineSettings machine;
-    machine.axes = 2;
-    machine.max_feed_mm_s = 100.0;
-    for (AxisSettings& axis : machine.axis) {
-        axis = {.max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .max_jerk_mm_s3 = 20000.0};
-    }
-    return machine;
+    return with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 20000.0);
 }
 
 } // namespace

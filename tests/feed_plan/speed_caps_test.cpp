@@ -9,14 +9,7 @@ using namespace splinefeed_test;
 namespace {
 
 MachineSettings two_axes() {
-    MachineSettings machine;
-    machine.axes = 2;
-    machine.max_feed_mm_s = 100.0;
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_velocity_mm_s = 80.0;
-        axis.max_acceleration_mm_s2 = 1000.0;
-    }
-    return machine;
+    return machine_of(2, 80.0, 1000.0, 100.0);
 }
 
 /// A straight cell in this direction that bends by so much.

@@ -2,20 +2,16 @@
 #include "splinefeed/s3_feed_plan/jerk/window_plan.hpp"
 
 #include "support/catch.hpp"
+#include "support/pipeline.hpp"
 
 #include <array>
 
 using namespace splinefeed;
+using namespace splinefeed_test;
 
 // The input is late: the leg ends with the window, and more of it may come.
 TEST_CASE("of a leg of any length that ends with the window, a part is final", "[feed_plan][jerk]") {
-    MachineSettings machine;
-    machine.axes = 2;
-    machine.max_feed_mm_s = 100.0;
-    for (AxisSettings& axis : machine.axis) {
-        axis = {.max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .max_jerk_mm_s3 = 20000.0};
-    }
-    const auto limits = MotionLimits<double>::make(machine).value();
+    const auto limits = MotionLimits<double>::make(with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 20000.0)).value();
     std::array<Cell<double>, 16> cells;
     std::array<JerkNode<double>, 17> nodes;
     std::array<LegNode<double>, 17> scratch;

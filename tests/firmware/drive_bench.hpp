@@ -5,7 +5,6 @@
 #include "drive/pvt_drive.hpp"
 #include "drive/rtu_frame.hpp"
 
-#include <memory>
 #include <vector>
 
 namespace firmware {
@@ -139,6 +138,12 @@ struct DriveBench {
         for (std::size_t i = 0; i < segments.size(); i += most) {
             give(first + static_cast<std::uint32_t>(i), segments.subspan(i, std::min(most, segments.size() - i)));
         }
+    }
+    /// A motion that begins at once.
+    void start(std::span<const PvtSegment> segments) {
+        enable_and_begin();
+        give_all(0, segments);
+        command(PvtCommand::start);
     }
     void enable_and_begin(std::uint32_t first = 0) {
         command(PvtCommand::enable);

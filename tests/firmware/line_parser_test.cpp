@@ -2,6 +2,7 @@
 #include "waypoints/line_parser.hpp"
 
 #include "support/catch.hpp"
+#include "support/split.hpp"
 
 #include <string>
 
@@ -55,29 +56,9 @@ TEST_CASE("Line parser: words, and lines that say nothing", "[line]") {
 }
 
 TEST_CASE("Line parser: what is refused says what would be right", "[line]") {
-    for (const char* line : {"1,2",
-                             "1,,3",
-                             "1;2;3",
-                             "1,2,3,4,2",
-                             "1,2,3,4,1,",
-                             "1,2,3,-4",
-                             "1,2,3,x",
-                             "1048576.1,0,0",
-                             "1e3,0,0",
-                             "end 1",
-                             "ends",
-                             "at 1,2",
-                             "at",
-                             "feed",
-                             "feed 201",
-                             "feed -1",
-                             "hold",
-                             "1,2,3*",
-                             "1,2,3*0",
-                             "1,2,3*zz",
-                             "1,2,3*00",
-                             "1,2,3*1e0",
-                             "99999999999999999999,0,0"}) {
+    for (const std::string& line : splinefeed_test::split(
+             "1,2|1,,3|1;2;3|1,2,3,4,2|1,2,3,4,1,|1,2,3,-4|1,2,3,x|1048576.1,0,0|1e3,0,0|end 1|ends|at 1,2|at|feed|"
+             "feed 201|feed -1|hold|1,2,3*|1,2,3*0|1,2,3*zz|1,2,3*00|1,2,3*1e0|99999999999999999999,0,0")) {
         CAPTURE(line);
         const Command command = parsed(line);
         CHECK(command.verb == Verb::invalid);

@@ -2,7 +2,6 @@
 //
 // The firmware's own library functions, under other names beside those of the host, which are what they must equal.
 #include <array>
-#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <support/catch.hpp>

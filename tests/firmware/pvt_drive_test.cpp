@@ -2,6 +2,7 @@
 #include "drive_bench.hpp"
 #include "support/rounds.hpp"
 
+#include <algorithm>
 #include <random>
 #include <support/catch.hpp>
 
@@ -17,6 +18,16 @@ std::array<std::int32_t, drive_axes> ends_of(const std::vector<PvtSegment>& segm
         ends[k] = static_cast<std::int32_t>((segments.back().end[k] + 32768) >> 16);
     }
     return ends;
+}
+
+/// The segments, from elsewhere on.
+std::vector<PvtSegment> moved(std::vector<PvtSegment> segments, const std::array<std::int64_t, drive_axes>& by) {
+    for (PvtSegment& segment : segments) {
+        for (unsigned k = 0; k < drive_axes; ++k) {
+            segment.end[k] += by[k];
+        }
+    }
+    return segments;
 }
 
 } // namespace
@@ -65,9 +76,7 @@ TEST_CASE("Drive: it starts at its instant, and a segment is executed when its s
 TEST_CASE("Drive: the ring ends, it stands on the path, and resumes", "[drive]") {
     DriveBench bench;
     const std::vector<PvtSegment> segments = there_and_stop(50, 8 * ms_ticks, 700.0);
-    bench.enable_and_begin();
-    bench.give_all(0, std::span(segments).first(25));
-    bench.command(PvtCommand::start);
+    bench.start(std::span(segments).first(25));
     bench.run_until(PvtState::held);
     CHECK(bench.status().state == PvtState::held);
     CHECK(bench.status().executed == 25);
@@ -83,9 +92,7 @@ TEST_CASE("Drive: the ring ends, it stands on the path, and resumes", "[drive]")
 TEST_CASE("Drive: a hold stands within the reserve, and nothing is lost", "[drive]") {
     DriveBench bench;
     const std::vector<PvtSegment> segments = there_and_stop(50, 8 * ms_ticks, 700.0);
-    bench.enable_and_begin();
-    bench.give_all(0, segments);
-    bench.command(PvtCommand::start);
+    bench.start(segments);
     bench.run_us(150'000);
     CHECK(bench.command(PvtCommand::hold, bench.drive.clock_us() + 10'000).state == PvtState::running);
     const std::uint32_t us = bench.run_until(PvtState::held);
@@ -165,13 +172,8 @@ TEST_CASE("Drive: a preset position is where the next motion begins", "[drive]")
     head.command_counter = ++bench.counter;
     CHECK(bench.send(head, place).position[1] == -2000);
     CHECK(bench.status().position[2] == 1);
-    std::vector<PvtSegment> segments = there_and_stop(20, 5 * ms_ticks, 300.0);
-    for (PvtSegment& segment : segments) {
-        for (unsigned k = 0; k < drive_axes; ++k) {
-            segment.end[k] += place[0].end[k];
-        }
-    }
-    bench.give_all(0, segments);
+    const std::int64_t* const from = place[0].end.data();
+    bench.give_all(0, moved(there_and_stop(20, 5 * ms_ticks, 300.0), {from[0], from[1], from[2]}));
     bench.command(PvtCommand::start);
     bench.run_until(PvtState::running);
     bench.run_until(PvtState::standing);
@@ -183,9 +185,7 @@ TEST_CASE("Drive: a preset position is where the next motion begins", "[drive]")
 TEST_CASE("Drive: the end moves to an earlier segment, if it can stop there", "[drive]") {
     DriveBench bench;
     const std::vector<PvtSegment> segments = there_and_stop(60, 10 * ms_ticks, 700.0);
-    bench.enable_and_begin();
-    bench.give_all(0, segments);
-    bench.command(PvtCommand::start);
+    bench.start(segments);
     bench.run_us(200'000); // in segment 20
     CHECK(bench.command(PvtCommand::end, 25).refused == PvtRefusal::state);
     --bench.counter;
@@ -202,9 +202,7 @@ TEST_CASE("Drive: without blocks the watchdog holds it, on the path", "[drive]")
     DriveBench bench;
     bench.drive.configure({.watchdog_ms = 100, .stop_reserve_ms = 50, .following_window = 0});
     const std::vector<PvtSegment> segments = there_and_stop(60, 10 * ms_ticks, 700.0);
-    bench.enable_and_begin();
-    bench.give_all(0, segments);
-    bench.command(PvtCommand::start);
+    bench.start(segments);
     const std::uint32_t us = bench.run_until(PvtState::held);
     CHECK(us == Approx(200'000.0).margin(4.0 * slot_us));
     CHECK(bench.drive.fault() == PvtFault::watchdog);
@@ -218,9 +216,7 @@ TEST_CASE("Drive: without blocks the watchdog holds it, on the path", "[drive]")
 TEST_CASE("Drive: a quick stop, a limit switch and an emergency stop lose the ring", "[drive]") {
     for (const int kind : {0, 1, 2}) {
         DriveBench bench;
-        bench.enable_and_begin();
-        bench.give_all(0, there_and_stop(60, 8 * ms_ticks, 2000.0));
-        bench.command(PvtCommand::start);
+        bench.start(there_and_stop(60, 8 * ms_ticks, 2000.0));
         bench.run_us(240'000);
         const std::array<std::int32_t, drive_axes> before = bench.shaft;
         bench.limit = kind == 1;
@@ -245,18 +241,14 @@ TEST_CASE("Drive: a quick stop, a limit switch and an emergency stop lose the ri
 
         bench.limit = bench.estop = false;
         bench.run_us(1000);
-        const std::array<std::int32_t, drive_axes> stopped = bench.shaft;
+        std::array<std::int64_t, drive_axes> stopped{};
+        std::ranges::transform(bench.shaft, stopped.begin(), [](std::int64_t counts) { return counts * 65536; });
         if (kind != 0) {
             CHECK(bench.command(PvtCommand::fault_reset).state == PvtState::disabled);
             bench.command(PvtCommand::enable);
         }
         bench.command(PvtCommand::begin, 5);
-        std::vector<PvtSegment> segments = there_and_stop(20, 8 * ms_ticks, 100.0);
-        for (PvtSegment& segment : segments) {
-            for (unsigned k = 0; k < drive_axes; ++k) {
-                segment.end[k] += std::int64_t{stopped[k]} * 65536;
-            }
-        }
+        const std::vector<PvtSegment> segments = moved(there_and_stop(20, 8 * ms_ticks, 100.0), stopped);
         bench.give_all(5, segments);
         bench.command(PvtCommand::start);
         bench.run_until(PvtState::running);
@@ -281,9 +273,7 @@ TEST_CASE("Drive: a segment that is too fast for the ticks is a fault of its axi
         DriveBench bench;
         std::vector<PvtSegment> segments = there_and_stop(20, 8 * ms_ticks, 10.0);
         segments[10].end[1] += static_cast<std::int64_t>(counts * 65536.0);
-        bench.enable_and_begin();
-        bench.give_all(0, segments);
-        bench.command(PvtCommand::start);
+        bench.start(segments);
         bench.run_until(PvtState::fault);
         CHECK(bench.drive.fault() == PvtFault::limit);
         CHECK(bench.drive.fault_axis() == 1);
@@ -304,12 +294,8 @@ TEST_CASE("Drive: rests on the way, holds and ends at random: the path's end, st
             const int count = 3 + static_cast<int>(random() % 30);
             const std::uint32_t ticks = 800 + static_cast<std::uint32_t>(random() % 60'000);
             const double most = 4000.0 * count * ticks / 8e6 / 1.5;
-            std::vector<PvtSegment> part = there_and_stop(count, ticks, most * (random() % 2 == 0 ? 0.9 : -0.9));
-            for (PvtSegment& segment : part) {
-                for (unsigned k = 0; k < drive_axes; ++k) {
-                    segment.end[k] += at[k];
-                }
-            }
+            const std::vector<PvtSegment> part =
+                moved(there_and_stop(count, ticks, most * (random() % 2 == 0 ? 0.9 : -0.9)), at);
             for (unsigned k = 0; k < drive_axes; ++k) {
                 at[k] = part.back().end[k];
             }
@@ -351,9 +337,7 @@ TEST_CASE("Drive: a limit switch that is pressed from the start is left, or stop
         DriveBench bench;
         bench.limit = true;
         bench.run_us(1000);
-        bench.enable_and_begin();
-        bench.give_all(0, there_and_stop(60, 8 * ms_ticks, 2000.0));
-        bench.command(PvtCommand::start);
+        bench.start(there_and_stop(60, 8 * ms_ticks, 2000.0));
         const std::uint32_t took = bench.run_until(PvtState::fault, 100'000);
         CHECK(took == 100'000); // so far it may leave it
         bench.limit = !releases;

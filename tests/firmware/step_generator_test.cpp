@@ -80,6 +80,11 @@ struct Bench {
         }
         return pulses - before;
     }
+    void pass(int milliseconds, const Inputs& inputs = {}) {
+        for (int ms = 0; ms < milliseconds; ++ms) {
+            run(inputs);
+        }
+    }
     /// So many milliseconds, with all of the parts that there is room for.
     void travel(const std::vector<MotionPart>& parts, int milliseconds) {
         for (int ms = 0; ms < milliseconds; ++ms) {
@@ -118,9 +123,7 @@ TEST_CASE("Step generator: a crossing in the last half tick is a step, too", "[g
     --parts.back().end[1];
     Bench bench(128);
     bench.fill(parts, parts.size());
-    for (int ms = 0; ms < 70; ++ms) {
-        bench.run();
-    }
+    bench.pass(70);
     CHECK(bench.steps->count(0) == parts.back().end[0]);
     CHECK(bench.steps->count(1) == parts.back().end[1]);
 }
@@ -237,9 +240,7 @@ TEST_CASE("Step generator: a limit switch slows down, and may be left", "[genera
     const std::vector<MotionPart> off = motion(60, true);
     bench.next = 0;
     bench.fill(off, off.size());
-    for (int i = 0; i < 100; ++i) {
-        bench.run({false, true});
-    }
+    bench.pass(100, {false, true});
     CHECK(bench.steps->stopped() == Stop::none);
     CHECK(bench.pulses != stopped_at);
 }
@@ -295,13 +296,9 @@ TEST_CASE("Step generator: told to halt before a motion begins, or just before i
         INFO(before_ms << " ms");
         Bench bench(128);
         bench.fill(parts, before_ms == 0 ? 10 : parts.size());
-        for (int ms = 0; ms < before_ms; ++ms) {
-            bench.run();
-        }
+        bench.pass(before_ms);
         bench.steps->order(Stop::halted);
-        for (int ms = 0; ms < 200; ++ms) {
-            bench.run();
-        }
+        bench.pass(200);
         CHECK(bench.steps->stopped() == Stop::halted);
         CHECK((before_ms != 0 || bench.pulses == 0));
         CHECK_FALSE(bench.steps->active());
@@ -313,9 +310,7 @@ TEST_CASE("Step generator: what stopped it stays known behind an order, and an e
     const std::vector<MotionPart> parts = motion(600, true);
     Bench bench(128);
     bench.travel(parts, 200);
-    for (int ms = 0; ms < 140; ++ms) {
-        bench.run({false, true});
-    }
+    bench.pass(140, {false, true});
     CHECK(bench.steps->stopped() == Stop::limit);
     for (const Stop order : {Stop::halted, Stop::cut}) {
         bench.steps->order(order);
@@ -346,17 +341,11 @@ TEST_CASE("Step generator: it tells the feed of the part that it makes, slower w
     Bench bench(128);
     CHECK(bench.steps->feed_mm_min() == 0);
     bench.fill(parts, 100);
-    for (int ms = 0; ms < 10; ++ms) {
-        bench.run();
-    }
+    bench.pass(10);
     CHECK(bench.steps->feed_mm_min() == 6000);
-    for (int ms = 0; ms < 70; ++ms) {
-        bench.run();
-    }
+    bench.pass(70);
     CHECK(bench.steps->feed_mm_min() > 1000);
     CHECK(bench.steps->feed_mm_min() < 5000);
-    for (int ms = 0; ms < 400; ++ms) {
-        bench.run();
-    }
+    bench.pass(400);
     CHECK(bench.steps->feed_mm_min() == 0);
 }

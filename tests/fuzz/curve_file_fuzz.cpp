@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a curve file: segments that chain, from each scalar, or one line that says what is wrong.
-#include "host_sim/base/input_error.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/curve/bezier_source.hpp"
 #include "host_sim/curve/curve_file.hpp"
-
-#include <cstdlib>
-#include <string_view>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -20,9 +17,7 @@ void require_chain(const CurveFile& file) {
     bool first = true;
     while (source.next(segment) == Pull::item) {
         for (const unsigned k : indices(file.axes)) {
-            if (!first && segment.origin[k] != here[k]) {
-                std::abort();
-            }
+            splinefeed_test::require(first || segment.origin[k] == here[k]);
         }
         here = segment.end;
         first = false;
@@ -32,19 +27,14 @@ void require_chain(const CurveFile& file) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    try {
-        const auto scalar = static_cast<ScalarKind>(size % 3);
-        const CurveFile file = parse_curve({reinterpret_cast<const char*>(data), size}, "fuzz.json", scalar);
+    return splinefeed_test::read_or_refuse(data, size, [](std::string_view text) {
+        const auto scalar = static_cast<ScalarKind>(text.size() % 3);
+        const CurveFile file = parse_curve(text, "fuzz.json", scalar);
         if (file.described) {
             require_executable(file, "fuzz.json");
         }
         require_chain<double>(file);
         require_chain<float>(file);
         require_chain<Fixed>(file);
-    } catch (const InputError& error) {
-        if (std::string_view(error.what()).find('\n') != std::string_view::npos) {
-            std::abort();
-        }
-    }
-    return 0;
+    });
 }

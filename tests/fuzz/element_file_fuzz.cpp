@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as an element file: a path that chains, in each scalar, and keeps its tolerance, or one line that says what
 // is wrong.
-#include "host_sim/base/input_error.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/base/json_text.hpp"
 #include "host_sim/program/element_file.hpp"
 #include "splinefeed/s1_blended_path/element_cast.hpp"
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
+using splinefeed_test::require;
 
 namespace {
 
@@ -23,9 +22,7 @@ template <Scalar S>
 void require_chain(const ElementProgram& program) {
     constexpr std::size_t most_segments = 100'000; // of arcs with many turns
     TolerancePath<S> path(axes, {from_double<S>(0.001)});
-    if (!path.start(program.start()).ok()) {
-        std::abort();
-    }
+    require(path.start(program.start()).ok());
     PerAxis<Position> here = program.start();
     CurveSegment<S> segment;
     std::size_t pushed = 0;
@@ -35,16 +32,12 @@ void require_chain(const ElementProgram& program) {
         pull = path.next(segment);
         if (pull == Pull::item) {
             for (unsigned k = 0; k < axes; ++k) {
-                if (segment.degree == 1 && segment.origin[k] != here[k]) {
-                    std::abort();
-                }
+                require(segment.degree != 1 || segment.origin[k] == here[k]);
             }
             here = segment.end;
             ++segments;
         } else if (pull == Pull::starved) {
-            if (ended) {
-                std::abort();
-            }
+            require(!ended);
             ended = pushed == program.moves() || !path.push(element_cast<S>(program.element(pushed++))).ok();
             if (ended) {
                 static_cast<void>(path.finish());
@@ -56,21 +49,16 @@ void require_chain(const ElementProgram& program) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    try {
-        const nlohmann::json document = parse_json({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+    return splinefeed_test::read_or_refuse(data, size, [](std::string_view text) {
+        const nlohmann::json document = parse_json(text, "fuzz.json");
         if (!has_elements(document)) {
-            return 0;
+            return;
         }
-        const std::vector<std::string> names =
-            size % 3 == 0 ? std::vector<std::string>{"x", "y", "z", "a"} : std::vector<std::string>{"y", "x", "a", "z"};
+        const std::vector<std::string> names = text.size() % 3 == 0 ? std::vector<std::string>{"x", "y", "z", "a"}
+                                                                    : std::vector<std::string>{"y", "x", "a", "z"};
         const ElementProgram program = read_elements(document, "fuzz.json", names, {});
         require_chain<double>(program);
         require_chain<float>(program);
         require_chain<Fixed>(program);
-    } catch (const InputError& error) {
-        if (std::string_view(error.what()).find('\n') != std::string_view::npos) {
-            std::abort();
-        }
-    }
-    return 0;
+    });
 }

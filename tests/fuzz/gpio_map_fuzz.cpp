@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a map file: a map whose lines are all there and each once, or one line that says what is wrong.
-#include "host_sim/base/input_error.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/machine_file.hpp"
 
-#include <cstdlib>
 #include <set>
-#include <string_view>
 #include <utility>
 
 using namespace splinefeed::hal::gpio;
 using namespace splinefeed::host;
+using splinefeed_test::require;
 
 namespace {
-
-void require(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
-}
 
 // Inputs may share a line; what shares one acts at one level, and is not the same input again.
 void require_agree(const MappedInput& input, const MappedInput& other) {
@@ -62,11 +55,7 @@ void require_sound(const PinMap& map, const MachineDescription& machine) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const MachineDescription machine = default_machine();
-    try {
-        const std::string_view text(reinterpret_cast<const char*>(data), size);
+    return splinefeed_test::read_or_refuse(data, size, [](std::string_view text) {
         require_sound(parse_gpio_map(text, "fuzz.toml", machine, "/dev/gpiochip0"), machine);
-    } catch (const InputError& error) {
-        require(std::string_view(error.what()).find('\n') == std::string_view::npos);
-    }
-    return 0;
+    });
 }

@@ -2,16 +2,17 @@
 // Any registers at any time to the simulated drives of the shipped profiles: they take or refuse them, what is refused
 // changes nothing, and their shafts stay finite and within what the time allows.
 #include "fuzz/bytes.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 using namespace splinefeed::host;
 using namespace splinefeed::hal::modbus;
 using splinefeed_test::Bytes;
+using splinefeed_test::require;
 
 namespace {
 
@@ -27,12 +28,6 @@ const std::vector<DriveProfile>& profiles() {
         return out;
     }();
     return all;
-}
-
-void require(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
 }
 
 } // namespace

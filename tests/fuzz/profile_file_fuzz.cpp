@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a drive profile: a profile whose fields, groups and steps fit together, or one line that says what is
 // wrong.
-#include "host_sim/base/input_error.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/config/profile_file.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <array>
-#include <cstdlib>
-#include <string_view>
 
 using namespace splinefeed::hal::modbus;
 using namespace splinefeed::host;
+using splinefeed_test::require;
 
 namespace {
-
-void require(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
-}
 
 void require_sound(const DriveProfile& profile) {
     for (const RegisterField& field : profile.fields) {
@@ -50,10 +43,6 @@ void require_sound(const DriveProfile& profile) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    try {
-        require_sound(parse_profile({reinterpret_cast<const char*>(data), size}, "fuzz.toml"));
-    } catch (const InputError& error) {
-        require(std::string_view(error.what()).find('\n') == std::string_view::npos);
-    }
-    return 0;
+    return splinefeed_test::read_or_refuse(
+        data, size, [](std::string_view text) { require_sound(parse_profile(text, "fuzz.toml")); });
 }

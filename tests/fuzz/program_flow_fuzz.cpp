@@ -9,6 +9,7 @@
 #include "splinefeed/s0_program/interpreter.hpp"
 
 #include "fuzz/bytes.hpp"
+#include "support/split.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -45,61 +46,15 @@ private:
 
 /// Each byte is a part of a line: programs that run, and jump, are common among these.
 std::string text_of_parts(splinefeed_test::Bytes bytes) {
-    static constexpr std::string_view parts[] = {"o1 ",
-                                                 "o2 ",
-                                                 "o3 ",
-                                                 "o<a> ",
-                                                 "o#2 ",
-                                                 "o[#1] ",
-                                                 "sub\n",
-                                                 "endsub\n",
-                                                 "call\n",
-                                                 "return\n",
-                                                 "if ",
-                                                 "elseif ",
-                                                 "else\n",
-                                                 "endif\n",
-                                                 "while ",
-                                                 "endwhile\n",
-                                                 "do\n",
-                                                 "repeat ",
-                                                 "endrepeat\n",
-                                                 "break\n",
-                                                 "continue\n",
-                                                 "[1]\n",
-                                                 "[0]\n",
-                                                 "[#1 LT 3]\n",
-                                                 "[#2 GT 1]\n",
-                                                 "[2]\n",
-                                                 "[#1]\n",
-                                                 "#1=[#1+1]\n",
-                                                 "#2=[#2+#1]\n",
-                                                 "#2=1\n",
-                                                 "G0 X#1\n",
-                                                 "\n",
-                                                 "call [1] [#1]\n",
-                                                 "endsub [#1]\n",
-                                                 "return [3]\n",
-                                                 "#<b>=#1\n",
-                                                 "#1=#<b>\n",
-                                                 "#1=#<_value>\n",
-                                                 "M2\n",
-                                                 "%\n",
-                                                 "O100 (PART)\n",
-                                                 "N7 o2 ",
-                                                 "(x)\n",
-                                                 "[",
-                                                 "]",
-                                                 "#31=[#31+1]\n",
-                                                 "[#31 LT 9]\n",
-                                                 "o100\n",
-                                                 "M98 P100\n",
-                                                 "M98 P100 L2\n",
-                                                 "M99\n",
-                                                 "G91 X1\n"};
+    static const std::vector<std::string> parts = splinefeed_test::split(
+        "o1 |o2 |o3 |o<a> |o#2 |o[#1] |sub\n|endsub\n|call\n|return\n|if |elseif |else\n|endif\n|while |endwhile\n|"
+        "do\n|repeat |endrepeat\n|break\n|continue\n|[1]\n|[0]\n|[#1 LT 3]\n|[#2 GT 1]\n|[2]\n|[#1]\n|#1=[#1+1]\n|"
+        "#2=[#2+#1]\n|#2=1\n|G0 X#1\n|\n|call [1] [#1]\n|endsub [#1]\n|return [3]\n|#<b>=#1\n|#1=#<b>\n|"
+        "#1=#<_value>\n|M2\n|%\n|O100 (PART)\n|N7 o2 |(x)\n|[|]|#31=[#31+1]\n|[#31 LT 9]\n|o100\n|M98 P100\n|"
+        "M98 P100 L2\n|M99\n|G91 X1\n");
     std::string text;
     while (bytes.left > 0 && text.size() < 100'000) {
-        text += parts[bytes.take() % std::size(parts)];
+        text += parts[bytes.take() % parts.size()];
     }
     return text;
 }

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a waypoint file: rows that keep what the reader promises, or one line that says what is wrong.
-#include "host_sim/base/input_error.hpp"
+#include "fuzz/require.hpp"
 #include "host_sim/program/waypoint_reader.hpp"
 
-#include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <string_view>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
-
-namespace {
-
-void require(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
-}
-
-} // namespace
+using splinefeed_test::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) {

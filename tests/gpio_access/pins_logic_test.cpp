@@ -7,13 +7,11 @@
 #include "splinefeed/hal/gpio/crash_guard.hpp"
 #include "splinefeed/hal/gpio/input_pins.hpp"
 #include "splinefeed/hal/gpio/output_pins.hpp"
-#include "support/catch.hpp"
+#include "support/child.hpp"
 
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace splinefeed::hal::gpio;
 using splinefeed_test::fake_chip;
@@ -144,17 +142,13 @@ TEST_CASE("A signal that ends the program makes the lines safe first, one that s
         CHECK(handler(SIGPIPE) == SIG_IGN);
         for (const int signal : {SIGALRM, SIGXFSZ, SIGPROF, SIGXCPU}) {
             CHECK(handler(signal) != SIG_DFL);
-            const pid_t child = fork();
-            if (child == 0) {
+            const int code = splinefeed_test::exit_of([&] {
                 fake_chip.between = [] {
                     _exit(42);
                 }; // the write comes
                 static_cast<void>(raise(signal));
-                _exit(1);
-            }
-            int status = 0;
-            REQUIRE(waitpid(child, &status, 0) == child);
-            CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 42));
+            });
+            CHECK(code == 42);
         }
     }
     CHECK(handler(SIGALRM) == SIG_DFL);

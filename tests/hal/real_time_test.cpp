@@ -2,20 +2,15 @@
 // What a process without privileges is told, and waiting.
 #include "splinefeed/hal/rt/clock.hpp"
 #include "splinefeed/hal/rt/real_time.hpp"
-#include "support/catch.hpp"
+#include "support/child.hpp"
 #include "support/rounds.hpp"
 
-#include <cstdlib>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace splinefeed::hal;
 
 TEST_CASE("a process without privileges is told what it lacks and how to grant it") {
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
+    const int code = splinefeed_test::exit_of([] {
         constexpr unsigned nobody = 65534;
         constexpr rlimit none{0, 0};
         static_cast<void>(setrlimit(RLIMIT_RTPRIO, &none));
@@ -33,11 +28,8 @@ TEST_CASE("a process without privileges is told what it lacks and how to grant i
                          says("CAP_IPC_LOCK") != splinefeed_test::sanitized && says("processor 1000") &&
                          says("/dev/cpu_dma_latency");
         _exit(all ? 0 : 1);
-    }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    });
+    CHECK(code == 0);
 }
 
 TEST_CASE("waiting is never over too soon, spinning or not") {

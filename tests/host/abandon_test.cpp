@@ -2,16 +2,13 @@
 #include "host_sim/base/abandon.hpp"
 
 #include "host_sim/base/output_file.hpp"
-#include "support/catch.hpp"
+#include "support/child.hpp"
 #include "temporary_folder.hpp"
 
 #include <array>
-#include <csignal>
 #include <thread>
 
 #include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -19,7 +16,7 @@ using namespace splinefeed_test;
 namespace {
 
 struct Ended {
-    int status = 0; // as of waitpid
+    int code = 0;
     std::string errors;
 };
 
@@ -34,9 +31,8 @@ Ended give_up(const TemporaryFolder& folder, bool deaf) {
         const std::string much(std::size_t{1} << 16, 'm');
         REQUIRE(write(errors[1], much.data(), much.size()) == static_cast<ssize_t>(much.size()));
     }
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
+    Ended ended;
+    ended.code = exit_of([&] {
         alarm(20);
         dup2(errors[1], STDERR_FILENO);
         dup2(blocked[1], STDOUT_FILENO);
@@ -48,9 +44,7 @@ Ended give_up(const TemporaryFolder& folder, bool deaf) {
             std::this_thread::yield();
         }
         abandon("held\non the path", 1);
-    }
-    Ended ended;
-    REQUIRE(waitpid(child, &ended.status, 0) == child);
+    });
     std::array<char, 200> text{};
     if (!deaf) {
         ended.errors.assign(text.data(), static_cast<std::size_t>(read(errors[0], text.data(), text.size())));
@@ -66,8 +60,7 @@ Ended give_up(const TemporaryFolder& folder, bool deaf) {
 TEST_CASE("a process ends while a thread of it is blocked, with its sentence and without half a file") {
     const TemporaryFolder folder;
     const Ended ended = give_up(folder, false);
-    REQUIRE(WIFEXITED(ended.status));
-    CHECK(WEXITSTATUS(ended.status) == 1);
+    CHECK(ended.code == 1);
     CHECK(ended.errors == "splinefeed: held\\x0aon the path\n");
     CHECK(folder.entries().empty());
 }
@@ -75,24 +68,18 @@ TEST_CASE("a process ends while a thread of it is blocked, with its sentence and
 TEST_CASE("a process ends though nobody reads its last sentence") {
     const TemporaryFolder folder;
     const Ended ended = give_up(folder, true);
-    REQUIRE(WIFEXITED(ended.status));
-    CHECK(WEXITSTATUS(ended.status) == 1);
+    CHECK(ended.code == 1);
     CHECK(folder.entries().empty());
 }
 
 TEST_CASE("what does not end in time ends with the process, what does leaves it alone") {
     { const Deadline in_time(std::chrono::seconds(20), "never told"); }
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
+    const int code = exit_of([] {
         alarm(20);
         const Deadline deadline(std::chrono::milliseconds(10), "a thread does not end");
         for (;;) {
             pause();
         }
-    }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 1);
+    });
+    CHECK(code == 1);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/segment_output.hpp"
 
-#include "host_sim/config/step_lines.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/base/input_error.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"

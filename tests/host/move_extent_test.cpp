@@ -4,7 +4,6 @@
 #include "support/catch.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 using namespace splinefeed;

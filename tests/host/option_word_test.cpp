@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/base/option_number.hpp"
 
 #include "host_sim/base/scalar_kind.hpp"
 #include "refusal.hpp"

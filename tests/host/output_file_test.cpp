@@ -2,16 +2,13 @@
 #include "host_sim/base/output_file.hpp"
 
 #include "refusal.hpp"
-#include "support/catch.hpp"
+#include "support/child.hpp"
 #include "temporary_folder.hpp"
 
 #include <csignal>
-#include <functional>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -21,23 +18,6 @@ namespace {
 using Entries = std::vector<std::string>;
 
 const std::string megabyte(std::size_t{1} << 20, 'm');
-
-// Runs `body` in a process of its own; the status as of waitpid.
-int in_child(const std::function<void()>& body) {
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        try {
-            body();
-        } catch (...) {
-            _exit(1);
-        }
-        _exit(0);
-    }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    return status;
-}
 
 void write(const std::string& path, const std::string& text) {
     OutputFile file(path);
@@ -103,7 +83,7 @@ TEST_CASE("without commit nothing is left, and an existing file stays") {
 TEST_CASE("a killed process leaves no target") {
     const TemporaryFolder folder;
     const std::string path = folder.file("out.csv");
-    const int status = in_child([&] {
+    const int status = child_status([&] {
         OutputFile file(path);
         file.append(megabyte);
         raise(SIGKILL);
@@ -177,7 +157,7 @@ TEST_CASE("a file that cannot grow is an error that names it, and leaves nothing
     const TemporaryFolder folder;
     const std::string path = folder.file("out.csv");
     write(path, "before");
-    const int status = in_child([&] {
+    const int code = exit_of([&] {
         const rlimit limit{std::size_t{1} << 19, std::size_t{1} << 19};
         signal(SIGXFSZ, SIG_IGN);
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
@@ -186,8 +166,7 @@ TEST_CASE("a file that cannot grow is an error that names it, and leaves nothing
         const std::string message = refusal_of<OutputError>([&] { write(path, megabyte); });
         _exit(message.find(path + ": cannot write: File too large; ") == 0 ? 0 : 1);
     });
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(code == 0);
     CHECK(contents(path) == "before");
     CHECK(folder.entries() == Entries{"out.csv"});
 }
@@ -210,7 +189,7 @@ TEST_CASE("a dash is standard output") {
     const auto captured = [](bool commit) {
         const TemporaryFolder folder;
         const std::string path = folder.file("stdout");
-        const int status = in_child([&] {
+        const int code = exit_of([&] {
             if (std::freopen(path.c_str(), "w", stdout) == nullptr) {
                 _exit(1);
             }
@@ -220,7 +199,7 @@ TEST_CASE("a dash is standard output") {
                 file.commit();
             }
         });
-        CHECK(status == 0);
+        CHECK(code == 0);
         CHECK(folder.entries() == Entries{"stdout"});
         return contents(path);
     };

@@ -2,7 +2,6 @@
 #include "host_sim/config/spindle_section.hpp"
 
 #include "host_sim/config/machine_file.hpp"
-#include "refusal.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;

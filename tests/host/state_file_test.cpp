@@ -4,7 +4,7 @@
 #include "host_sim/base/durable_file.hpp"
 #include "host_sim/live/state_keeper.hpp"
 #include "refusal.hpp"
-#include "support/catch.hpp"
+#include "support/child.hpp"
 #include "temporary_folder.hpp"
 
 #include <filesystem>
@@ -13,8 +13,6 @@
 #include <random>
 
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -101,16 +99,11 @@ TEST_CASE("A state is kept by one process at a time, whatever it calls the file"
     const std::string file = folder.file("state.json");
     std::filesystem::create_symlink("state.json", folder.file("link"));
     const StateFile held(folder.file("link"), {xyz});
-    const pid_t other = fork();
-    if (other == 0) {
-        _exit(refusal_of([&] { StateFile(file, {xyz}).write({}); }).find(" keeps its state there; end that first") !=
-                      std::string::npos
-                  ? 0
-                  : 1);
-    }
-    int status = 1;
-    REQUIRE(waitpid(other, &status, 0) == other);
-    CHECK(status == 0);
+    const int found = exit_of([&] {
+        const std::string said = refusal_of([&] { StateFile(file, {xyz}).write({}); });
+        _exit(said.find(" keeps its state there; end that first") != std::string::npos ? 0 : 1);
+    });
+    CHECK(found == 0);
     CHECK_FALSE(std::filesystem::exists(file));
 }
 

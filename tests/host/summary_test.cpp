@@ -112,107 +112,90 @@ void of_events(Summary& summary) {
     summary.*member = 2;
 }
 
-const struct {
-    const char* what;
-    void (*change)(Summary&);
-} rows[] = {
-    {"a plan with a jerk limit, in another scalar",
-     [](Summary& s) {
-         s.jerk_scalar = "double";
-     }},
-    {"a run that was steered", of_events<&Summary::events>},
-    {"what a program asked for", with_a_program},
-    {"a program that has begun no line",
-     [](Summary& s) {
-         s.program.dwells = 1;
-     }},
-    {"a run on drives", on_drives},
-    {"a run on drives that follow targets",
-     [](Summary& s) {
-         on_drives(s);
-         s.link->target_period_us = 2000;
-         s.link->between_targets_mm = 0.003;
-         s.link->late_us = 700;
-     }},
-    {"a run on lines", on_lines},
-    {"a curve of control points has no waypoint error",
-     [](Summary& s) {
-         s.waypoint_error_mm.reset();
-         s.curve = "bspline";
-     }},
-    {"no optimum, no limits, no jerk, and the memory is unknown",
-     [](Summary& s) {
-         s.optimum_time_s.reset();
-         s.limit_use.clear();
-         s.peak_rss_bytes = 0;
-     }},
-    {"no axis has a jerk limit",
-     [](Summary& s) {
-         s.limit_use[0].jerk.reset();
-     }},
-    {"shares of the limits", shared_limits},
-    {"shares of a path with a centripetal limit and a chord error, and no axis with a jerk limit",
-     [](Summary& s) {
-         shared_limits(s);
-         s.limit_share->axis[0].jerk.reset();
-         s.limit_share->centripetal = 0.02;
-         s.limit_share->chord = 0.0;
-     }},
-    {"shares where nothing moved",
-     [](Summary& s) {
-         shared_limits(s);
-         s.cycle_time_s = 0.0;
-         s.optimum_time_s.reset();
-     }},
-    {"what would help: small gains in JSON only", what_would_help},
-    {"what would help, of the first moves",
-     [](Summary& s) {
-         what_would_help(s);
-         s.what_would_help->moves = 20'000;
-     }},
-    {"nothing would help",
-     [](Summary& s) {
-         what_would_help(s);
-         s.what_would_help->limits.clear();
-     }},
-    {"a run that was stopped, above a limit, with a window that is too short",
-     [](Summary& s) {
-         s.stopped = true;
-         s.window_limited = 1;
-         s.searched_legs = 40;
-         s.slow_legs = 2;
-         s.stops = 3;
-         s.limit_use[1].acceleration = 1.5;
-     }},
-    {"a jerk limit of which rounding takes more than a hundredth",
-     [](Summary& s) {
-         s.limit_use[0].jerk_reserved = 0.0345;
-     }},
-    {"events that the run did not reach", of_events<&Summary::events_not_reached>},
-    {"a path within a tolerance", within_a_tolerance},
-    {"a tolerance that was not kept",
-     [](Summary& s) {
-         within_a_tolerance(s);
-         s.tolerance->rotary_deviation = ToleranceSummary::Place{0.5, 4, 0, "element 4"};
-         s.tolerance->excess = "the path is 0.5 degrees from element 4";
-     }},
-    {"a deviation of zero is at no element and at no line",
-     [](Summary& s) {
-         with_exact_stops(s, 0.0);
-         s.tolerance->rotary_deviation = ToleranceSummary::Place{};
-     }},
-    {"longer than with exact stops",
-     [](Summary& s) {
-         with_exact_stops(s, s.cycle_time_s / 1.012);
-     }},
-    {"as long, rounded up",
-     [](Summary& s) {
-         with_exact_stops(s, s.cycle_time_s / 1.0004);
-     }},
-    {"as long, rounded down",
-     [](Summary& s) {
-         with_exact_stops(s, s.cycle_time_s / 0.9996);
-     }},
+using Row = std::pair<const char*, void (*)(Summary&)>;
+
+Row row(const char* what, void (*change)(Summary&)) {
+    return {what, change};
+}
+
+const Row rows[] = {
+    row("a plan with a jerk limit, in another scalar", [](Summary& s) { s.jerk_scalar = "double"; }),
+    row("a run that was steered", of_events<&Summary::events>),
+    row("what a program asked for", with_a_program),
+    row("a program that has begun no line", [](Summary& s) { s.program.dwells = 1; }),
+    row("a run on drives", on_drives),
+    row("a run on drives that follow targets",
+        [](Summary& s) {
+            on_drives(s);
+            s.link->target_period_us = 2000;
+            s.link->between_targets_mm = 0.003;
+            s.link->late_us = 700;
+        }),
+    row("a run on lines", on_lines),
+    row("a curve of control points has no waypoint error",
+        [](Summary& s) {
+            s.waypoint_error_mm.reset();
+            s.curve = "bspline";
+        }),
+    row("no optimum, no limits, no jerk, and the memory is unknown",
+        [](Summary& s) {
+            s.optimum_time_s.reset();
+            s.limit_use.clear();
+            s.peak_rss_bytes = 0;
+        }),
+    row("no axis has a jerk limit", [](Summary& s) { s.limit_use[0].jerk.reset(); }),
+    row("shares of the limits", shared_limits),
+    row("shares of a path with a centripetal limit and a chord error, and no axis with a jerk limit",
+        [](Summary& s) {
+            shared_limits(s);
+            s.limit_share->axis[0].jerk.reset();
+            s.limit_share->centripetal = 0.02;
+            s.limit_share->chord = 0.0;
+        }),
+    row("shares where nothing moved",
+        [](Summary& s) {
+            shared_limits(s);
+            s.cycle_time_s = 0.0;
+            s.optimum_time_s.reset();
+        }),
+    row("what would help: small gains in JSON only", what_would_help),
+    row("what would help, of the first moves",
+        [](Summary& s) {
+            what_would_help(s);
+            s.what_would_help->moves = 20'000;
+        }),
+    row("nothing would help",
+        [](Summary& s) {
+            what_would_help(s);
+            s.what_would_help->limits.clear();
+        }),
+    row("a run that was stopped, above a limit, with a window that is too short",
+        [](Summary& s) {
+            s.stopped = true;
+            s.window_limited = 1;
+            s.searched_legs = 40;
+            s.slow_legs = 2;
+            s.stops = 3;
+            s.limit_use[1].acceleration = 1.5;
+        }),
+    row("a jerk limit of which rounding takes more than a hundredth",
+        [](Summary& s) { s.limit_use[0].jerk_reserved = 0.0345; }),
+    row("events that the run did not reach", of_events<&Summary::events_not_reached>),
+    row("a path within a tolerance", within_a_tolerance),
+    row("a tolerance that was not kept",
+        [](Summary& s) {
+            within_a_tolerance(s);
+            s.tolerance->rotary_deviation = ToleranceSummary::Place{0.5, 4, 0, "element 4"};
+            s.tolerance->excess = "the path is 0.5 degrees from element 4";
+        }),
+    row("a deviation of zero is at no element and at no line",
+        [](Summary& s) {
+            with_exact_stops(s, 0.0);
+            s.tolerance->rotary_deviation = ToleranceSummary::Place{};
+        }),
+    row("longer than with exact stops", [](Summary& s) { with_exact_stops(s, s.cycle_time_s / 1.012); }),
+    row("as long, rounded up", [](Summary& s) { with_exact_stops(s, s.cycle_time_s / 1.0004); }),
+    row("as long, rounded down", [](Summary& s) { with_exact_stops(s, s.cycle_time_s / 0.9996); }),
 };
 
 } // namespace

@@ -4,9 +4,7 @@
 #include "support/terminal.hpp"
 
 #include <chrono>
-#include <cstdlib>
 #include <fcntl.h>
-#include <string_view>
 #include <thread>
 #include <unistd.h>
 

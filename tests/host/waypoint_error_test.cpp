@@ -37,6 +37,15 @@ CurveSegment<double> line(Point from, Point to, std::uint32_t waypoint) {
     return bezier({from, to}, waypoint);
 }
 
+/// Of waypoints 0, 1 and so on.
+WaypointError error_of(const std::vector<Point>& waypoints) {
+    WaypointError error;
+    for (std::uint32_t i = 0; i < waypoints.size(); ++i) {
+        error.waypoint(i, at(waypoints[i][0], waypoints[i][1]));
+    }
+    return error;
+}
+
 } // namespace
 
 TEST_CASE("nothing has no error") {
@@ -59,10 +68,7 @@ TEST_CASE("a curve through its waypoints has none either") {
 }
 
 TEST_CASE("the distance is that of the nearest point, not of the segment's end") {
-    WaypointError error;
-    error.waypoint(0, at(0.0, 0.0));
-    error.waypoint(1, at(10.0, 0.003)); // beside the path
-    error.waypoint(2, at(20.0, 0.0));
+    WaypointError error = error_of({{0.0, 0.0}, {10.0, 0.003}, {20.0, 0.0}}); // the second is beside the path
     SECTION("before the end") {
         error.segment(line({0.0, 0.0}, {10.7, 0.0}, 1));
         CHECK(error.largest_mm() == Approx(0.003));
@@ -77,27 +83,20 @@ TEST_CASE("the distance is that of the nearest point, not of the segment's end")
 }
 
 TEST_CASE("the first waypoint is measured at the start") {
-    WaypointError error;
-    error.waypoint(0, at(-0.004, 0.003));
-    error.waypoint(1, at(1.0, 0.0));
+    WaypointError error = error_of({{-0.004, 0.003}, {1.0, 0.0}});
     error.segment(line({0.0, 0.0}, {1.0, 0.0}, 1));
     CHECK(error.largest_mm() == Approx(0.005).epsilon(1e-9));
 }
 
 TEST_CASE("the nearest point of a curved segment is found to the nanometre") {
     // A parabola y = x^2 over [-1, 1]; from (0, h) with h > 1/2 the nearest points are at x^2 = h - 1/2.
-    WaypointError error;
-    error.waypoint(0, at(-1.0, 1.0));
-    error.waypoint(1, at(0.0, 1.0));
+    WaypointError error = error_of({{-1.0, 1.0}, {0.0, 1.0}});
     error.segment(bezier({{-1.0, 1.0}, {0.0, -1.0}, {1.0, 1.0}}, 1));
     CHECK(error.largest_mm() == Approx(std::sqrt(0.75)).epsilon(1e-12));
 }
 
 TEST_CASE("several segments may lead to one waypoint") {
-    WaypointError error;
-    error.waypoint(0, at(0.0, 0.0));
-    error.waypoint(1, at(2.0, 0.001));
-    error.waypoint(2, at(3.0, 0.0));
+    WaypointError error = error_of({{0.0, 0.0}, {2.0, 0.001}, {3.0, 0.0}});
     error.segment(line({0.0, 0.0}, {1.0, 0.0}, 1));
     error.segment(line({1.0, 0.0}, {2.0, 0.0}, 1));
     CHECK(error.largest_mm() == Approx(0.001));
@@ -106,13 +105,14 @@ TEST_CASE("several segments may lead to one waypoint") {
 }
 
 TEST_CASE("waypoints that no segment leads to are measured where they were merged") {
-    WaypointError error;
-    error.waypoint(0, at(0.0, 0.0));
-    error.waypoint(1, at(1.0, 0.0));
-    error.waypoint(2, at(1.0, 0.0));    // the same
-    error.waypoint(3, at(1.0, 0.9e-6)); // within the nanometre
-    error.waypoint(4, at(1.0, 0.002));  // merged by a coarser curve
-    error.waypoint(5, at(2.0, 0.0));
+    WaypointError error = error_of({
+        {0.0, 0.0},
+        {1.0, 0.0},
+        {1.0, 0.0},    // the same
+        {1.0, 0.9e-6}, // within the nanometre
+        {1.0, 0.002},  // merged by a coarser curve
+        {2.0, 0.0},
+    });
     error.segment(line({0.0, 0.0}, {1.0, 0.0}, 1));
     CHECK(error.largest_mm() == Approx(0.9e-6).epsilon(1e-4));
     error.segment(line({1.0, 0.0}, {2.0, 0.0}, 5));
@@ -120,18 +120,13 @@ TEST_CASE("waypoints that no segment leads to are measured where they were merge
 }
 
 TEST_CASE("waypoints that the curve has not reached do not count") {
-    WaypointError error;
-    error.waypoint(0, at(0.0, 0.0));
-    error.waypoint(1, at(1.0, 0.0));
-    error.waypoint(2, at(1.0, 500.0));
+    WaypointError error = error_of({{0.0, 0.0}, {1.0, 0.0}, {1.0, 500.0}});
     error.segment(line({0.0, 0.0}, {1.0, 0.0}, 1));
     CHECK(error.largest_mm() == 0.0);
 }
 
 TEST_CASE("far from the origin nothing is lost") {
-    WaypointError error;
-    error.waypoint(0, at(500000.0, -500000.0));
-    error.waypoint(1, at(500001.0, -500000.0 + 1e-7));
+    WaypointError error = error_of({{500000.0, -500000.0}, {500001.0, -500000.0 + 1e-7}});
     error.segment(line({500000.0, -500000.0}, {500001.0, -500000.0}, 1));
     CHECK(error.largest_mm() == Approx(1e-7).epsilon(1e-3));
 }

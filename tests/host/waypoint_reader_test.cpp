@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/waypoint_reader.hpp"
 
-#include "host_sim/base/input_error.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
 

@@ -18,8 +18,11 @@ def by_profile(run, profiles):
     return {profile or "splinefeed-pvt": functools.partial(run, profile=profile) for profile in profiles}
 
 
-def run_cases(tool, cases, names=()):
-    """The exit status. cases: functions, or such by their names; names: of the cases to be run; none: all."""
+def run_cases(tool, cases, names=(), missing=""):
+    """The exit status. cases: functions, or such by their names; names: of the cases to be run; none: all; missing: why they are skipped."""
+    if missing:
+        print(f"SKIPPED: {missing}")
+        return 77
     problems = []
     if not isinstance(cases, dict):
         cases = {case.__name__: case for case in cases}

@@ -94,6 +94,17 @@ def machine_text(axes, drives, head=""):
     return text
 
 
+def write(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def write_machine(folder, axes, drives, head, profile=""):
+    """machine.toml: a drive an axis, each with this profile and what stands behind it; "" is splinefeed-pvt."""
+    keys = f"profile={profile}" if profile else "unit=1"
+    write(folder, "machine.toml", machine_text(axes, [drive.tcp_address(keys) for drive in drives], head))
+
+
 def numbers(path):
     with open(path, encoding="ascii") as file:
         return [[float(x) for x in row.split(",")] for row in file if row[0].isdigit()]

@@ -23,7 +23,7 @@ import subprocess
 import sys
 import time
 
-from drive_processes import Drive, fields, folder_with_cables, machine_text, missing_for, sequence_problems
+from drive_processes import Drive, fields, folder_with_cables, machine_text, missing_for, sequence_problems, write
 
 STEPS = 320.0
 FEED = 100.0
@@ -148,8 +148,7 @@ class Run:
         both = [faults if k == faulted or self.rng.random() < 0.15 else "" for k in range(count)]
         profile, keys = KINDS[self.kind, self.wire]
         with folder_with_cables(self.wire, count) as (folder, cables):
-            with open(os.path.join(folder, "program.csv"), "w", encoding="ascii") as file:
-                file.write(random_program(self.rng))
+            write(folder, "program.csv", random_program(self.rng))
             if profile == "serial.toml":
                 write_serial_profile(os.path.join(folder, profile))
             listen = [f"rtu://{theirs}{QUERY}" for _, theirs in cables] or ["tcp://127.0.0.1:0"] * count
@@ -161,8 +160,7 @@ class Run:
                         [drive.tcp_address() + keys for drive in drives]
             if profile == "lexium32m":
                 addresses = [address.replace("unit=1", "unit=255") for address in addresses]
-            with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
-                file.write(self.machine(addresses))
+            write(folder, "machine.toml", self.machine(addresses))
             began_s = time.monotonic()
             try:
                 run = subprocess.run([*self.under, self.tool, "run", "program.csv", "-m", "machine.toml", "--target", "modbus",

@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 from case_runs import by_profile, run_cases
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 
 STEPS = 320
 START = (4000, -2500)
@@ -20,17 +20,11 @@ AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 
 
 def run(tool, folder, profile):
     drives = [Drive(tool, folder, k, 1, profile=profile, position=START[k]) for k in range(2)]
-    keys = f"profile={profile}" if profile else "unit=1"
-    addresses = [drive.tcp_address(keys) for drive in drives]
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([("x", AXIS), ("y", AXIS + "invert = true\n")], addresses, "[path]\nmax_feed_mm_s = 100\n"))
-    with open(os.path.join(folder, "way.csv"), "w", encoding="utf-8") as file:
-        file.write(f"0,0\n{WAY_MM[0]},{WAY_MM[1]}\n")
+    write_machine(folder, [("x", AXIS), ("y", AXIS + "invert = true\n")], drives, "[path]\nmax_feed_mm_s = 100\n", profile)
+    write(folder, "way.csv", f"0,0\n{WAY_MM[0]},{WAY_MM[1]}\n")
     called = subprocess.run([tool, "run", "way.csv", "-m", "machine.toml", "--target", "modbus", "--home", "--summary", "json"],
                             cwd=folder, capture_output=True, text=True, timeout=100, check=False)
-    problems = []
-    for drive in drives:
-        problems += drive.stop()
+    problems = [problem for drive in drives for problem in drive.stop()]
     if called.returncode != 0:
         return problems + [f"exit status {called.returncode}: {called.stderr}"]
     json.loads(called.stdout)

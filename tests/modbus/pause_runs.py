@@ -12,7 +12,7 @@ import sys
 import time
 
 from case_runs import run_cases
-from drive_processes import Drive
+from drive_processes import Drive, write, write_machine
 
 STEPS = 320
 PROGRAM = """G21 G90 G64
@@ -25,15 +25,7 @@ T3 M6
 X60
 M2
 """
-MACHINE = """[path]
-max_feed_mm_s = 100
-[[axis]]
-name = "x"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-steps_per_mm = 320
-drive = "{drive}"
-"""
+AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = {STEPS}\n"
 WAITS_S = 1.0
 
 
@@ -42,10 +34,8 @@ class Run:
 
     def __init__(self, tool, folder, answers, terminal=False, options=()):
         self.drive = Drive(tool, folder, 0, 1)
-        with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-            file.write(MACHINE.format(drive=self.drive.tcp_address()))
-        with open(os.path.join(folder, "part.ngc"), "w", encoding="ascii") as file:
-            file.write(PROGRAM)
+        write_machine(folder, [("x", AXIS)], [self.drive], "[path]\nmax_feed_mm_s = 100\n")
+        write(folder, "part.ngc", PROGRAM)
         self.keyboard, screen = pty.openpty() if terminal else (None, subprocess.DEVNULL)
         self.process = subprocess.Popen([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus", *options], cwd=folder,
                                         stdin=screen, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -87,8 +77,7 @@ class Run:
 
 def by_signal(tool, folder):
     run = Run(tool, folder, [Run.go_on, Run.go_on])
-    problems = run.expect(0, 60, [20, 40], "line 4: M0; to go on kill -USR2 ", "line 7: M6, change to tool 3; to go on kill -USR2 ")
-    return problems
+    return run.expect(0, 60, [20, 40], "line 4: M0; to go on kill -USR2 ", "line 7: M6, change to tool 3; to go on kill -USR2 ")
 
 
 def optional(tool, folder):

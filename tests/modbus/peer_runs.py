@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, machine_text, write
 from real_time import HostWatch
 
 STEPS = 320
@@ -21,9 +21,9 @@ class Peer:
         self.address = "modbus-" + self.process.stdout.readline().split("listening on ")[1].split(",")[0]
 
 
-def write_machine(folder, head, drive):
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([(name, AXIS) for name in "xy"], [f"{drive.tcp_address()}&axis={k}" for k in range(2)], head))
+def write_peer_machine(folder, head, drive):
+    addresses = [f"{drive.tcp_address()}&axis={k}" for k in range(2)]
+    write(folder, "machine.toml", machine_text([(name, AXIS) for name in "xy"], addresses, head))
 
 
 class PeerRun:
@@ -33,9 +33,8 @@ class PeerRun:
         self.peer = peer
         self.drive = Drive(tool, folder, 0, 2, faults=faults)
         self.times = []
-        write_machine(folder, head, self.drive)
-        with open(os.path.join(folder, "part.ngc"), "w", encoding="ascii") as file:
-            file.write(program)
+        write_peer_machine(folder, head, self.drive)
+        write(folder, "part.ngc", program)
         self.process = subprocess.Popen([tool, *RUN], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         if cause:
             threading.Thread(target=lambda: (self.due(), cause(self)), daemon=True).start()

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 
 AXIS = "max_velocity_mm_s = 80\nmax_acceleration_mm_s2 = 500\nsteps_per_mm = 320\n"
 LINES = 20  # of 10 mm each, to and fro, at 40 mm/s
@@ -42,11 +42,9 @@ def main():
     problems = []
     with tempfile.TemporaryDirectory(prefix="splinefeed-progress-") as folder:
         drive = Drive(tool, folder, 0, 1)
-        with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-            file.write(machine_text([("x", AXIS)], [drive.tcp_address()], "[path]\nmax_feed_mm_s = 80\n"))
-        with open(os.path.join(folder, "part.ngc"), "w", encoding="utf-8") as file:
-            file.write("G1 F2400 G61 (MSG,begun)\n" + "".join(f"X{10 * (n % 2)}\n" for n in range(1, LINES // 2)) + "(MSG,half)\n" +
-                       "".join(f"X{10 * (n % 2)}\n" for n in range(LINES // 2, LINES + 1)))
+        write_machine(folder, [("x", AXIS)], [drive], "[path]\nmax_feed_mm_s = 80\n")
+        write(folder, "part.ngc", "G1 F2400 G61 (MSG,begun)\n" + "".join(f"X{10 * (n % 2)}\n" for n in range(1, LINES // 2)) +
+              "(MSG,half)\n" + "".join(f"X{10 * (n % 2)}\n" for n in range(LINES // 2, LINES + 1)))
         shown, status = shown_by([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus"], folder)
         problems += drive.stop()
     text = "".join(part for _, part in shown)

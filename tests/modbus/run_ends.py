@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 from real_time import HostWatch
 
 STILL_COUNTS = 0.5  # the shaft of a simulated drive comes to its target ever more slowly
@@ -41,15 +41,10 @@ CASES = {
 
 
 def start(tool, folder, name, drives, profile, options, text):
-    keys = f"profile={profile}" if profile else "unit=1"
-    addresses = [drive.tcp_address(keys) for drive in drives]
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 80\n"))
+    write_machine(folder, [("x", AXIS), ("y", AXIS)], drives, "[path]\nmax_feed_mm_s = 80\n", profile)
     program = "part.csv" if name == "waypoints" else "part.ngc"
-    with open(os.path.join(folder, program), "w", encoding="utf-8") as file:
-        file.write(text or "")
-    with open(os.path.join(folder, "zero.ngc"), "w", encoding="utf-8") as file:
-        file.write("G4 P0.01\n")
+    write(folder, program, text or "")
+    write(folder, "zero.ngc", "G4 P0.01\n")
     subprocess.run([tool, "run", "zero.ngc", "-m", "machine.toml", "--state", "state.json", "--position", f"{OLD},{OLD}", "--quiet"],
                    cwd=folder, check=True, stdout=subprocess.DEVNULL)
     with open(os.path.join(folder, "state.json"), "r+", encoding="utf-8") as file:

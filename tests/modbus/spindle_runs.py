@@ -14,7 +14,7 @@ import time
 
 from case_runs import pymodbus_missing, run_cases
 from drive_processes import Drive
-from peer_runs import RUN, Peer, PeerRun, write_machine
+from peer_runs import RUN, Peer, PeerRun, write_peer_machine
 
 SLOW_HZ, FAST_HZ = 200.0, 300.0  # S12000 and S18000 at 60 rpm a Hz
 BEGIN_MM, CHANGE_MM, END_MM = 10.0, 40.0, 60.0
@@ -168,7 +168,7 @@ def absent(tool, folder):
     """Nobody answers where the inverter should be: nothing moves."""
     run = Run(tool, folder)
     again = Drive(tool, folder, 1, 2)
-    write_machine(folder, run.head, again)
+    write_peer_machine(folder, run.head, again)
     called = subprocess.run([tool, *RUN], cwd=folder, capture_output=True, text=True, timeout=60, check=False)
     again.stop()
     problems = [] if called.returncode == 1 else [f"exit status {called.returncode}: {called.stderr}"]
@@ -180,11 +180,8 @@ def absent(tool, folder):
 
 
 def main():
-    if why := pymodbus_missing():
-        print(f"SKIPPED: {why}")
-        return 77
     cases = (whole, held, interrupted, twice, drive_fault, lost, silent, too_slow, absent)
-    return run_cases(os.path.abspath(sys.argv[1]), cases, sys.argv[2:])
+    return run_cases(os.path.abspath(sys.argv[1]), cases, sys.argv[2:], pymodbus_missing())
 
 
 if __name__ == "__main__":

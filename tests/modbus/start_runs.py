@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 
 STEPS = 320
 AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = {STEPS}\n"
@@ -39,13 +39,10 @@ class Machine:
 
     def describe(self, axis):
         ramp = "" if self.profile == "cia402-index" else "&ramp=1.28e6"
-        keys = f"profile={self.profile}{ramp}" if self.profile else "unit=1"
-        addresses = [drive.tcp_address(keys) for drive in self.drives]
-        self.write("machine.toml", machine_text([("x", axis), ("y", axis)], addresses, HEAD))
+        write_machine(self.folder, [("x", axis), ("y", axis)], self.drives, HEAD, self.profile and self.profile + ramp)
 
     def write(self, name, text):
-        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
+        write(self.folder, name, text)
 
     def points(self, name, *xs):
         self.write(name, "x,y,feed\n" + "".join(f"{x},{x / 4},20\n" for x in xs))

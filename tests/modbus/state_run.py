@@ -13,7 +13,7 @@ import sys
 import time
 
 from case_runs import by_profile, run_cases
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 
 STEPS = 320
 AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = {STEPS}\n"
@@ -23,20 +23,14 @@ STOP_AFTER_S = 5.0
 
 def run(tool, folder, profile):
     drives = [Drive(tool, folder, k, 1, profile=profile) for k in range(2)]
-    keys = f"profile={profile}" if profile else "unit=1"
-    addresses = [drive.tcp_address(keys) for drive in drives]
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 100\n"))
-    with open(os.path.join(folder, "part.ngc"), "w", encoding="utf-8") as file:
-        file.write("G1 F600 G64 Q0\n" + "".join(f"X{0.5 * n}\n" for n in range(1, LINES + 1)))
+    write_machine(folder, [("x", AXIS), ("y", AXIS)], drives, "[path]\nmax_feed_mm_s = 100\n", profile)
+    write(folder, "part.ngc", "G1 F600 G64 Q0\n" + "".join(f"X{0.5 * n}\n" for n in range(1, LINES + 1)))
     process = subprocess.Popen([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus", "--state", "state.json",
                                 "--summary", "json"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     time.sleep(STOP_AFTER_S)
     process.send_signal(signal.SIGTERM)
     output, error = process.communicate(timeout=60)
-    problems = []
-    for drive in drives:
-        problems += drive.stop()
+    problems = [problem for drive in drives for problem in drive.stop()]
     said = re.search(r"the machine stands at x=(\S+) y=(\S+) mm, on line (\d+)$", error.strip())
     if process.returncode != 1 or said is None:
         return problems + [f"exit status {process.returncode}: {error}"]

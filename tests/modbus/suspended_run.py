@@ -11,7 +11,7 @@ import sys
 import time
 
 from case_runs import by_profile, run_cases
-from drive_processes import Drive, machine_text
+from drive_processes import Drive, write, write_machine
 
 STEPS = 320
 AXIS = f"max_velocity_mm_s = 80\nmax_acceleration_mm_s2 = 500\nsteps_per_mm = {STEPS}\n"
@@ -37,12 +37,8 @@ def one(tool, folder, profile, resumes):
     """resumes: it goes on; otherwise it is ended while it is stopped."""
     problems = []
     drives = [Drive(tool, folder, k, 1, profile=profile.split("&")[0]) for k in range(2)]
-    keys = f"profile={profile}" if profile else "unit=1"
-    addresses = [drive.tcp_address(keys) for drive in drives]
-    with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 80\n"))
-    with open(os.path.join(folder, "part.ngc"), "w", encoding="utf-8") as file:
-        file.write("G1 F4800 X240 Y120\n")
+    write_machine(folder, [("x", AXIS), ("y", AXIS)], drives, "[path]\nmax_feed_mm_s = 80\n", profile)
+    write(folder, "part.ngc", "G1 F4800 X240 Y120\n")
     command = [tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus"]
     run = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     time.sleep(2.0)

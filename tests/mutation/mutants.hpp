@@ -17,7 +17,6 @@
 #pragma GCC diagnostic ignored "-Wsign-compare"
 
 #include <array>
-#include <concepts>
 #include <cstdio>
 #include <cstdlib>
 #include <type_traits>

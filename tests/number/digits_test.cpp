@@ -10,8 +10,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 void check_reciprocal(std::uint32_t word) {
     if (detail::word_reciprocal(word) != ~std::uint64_t{0} / word - (std::uint64_t{1} << 32)) {
         FAIL_SAMPLE(word);
@@ -40,23 +38,20 @@ void check_division(std::uint64_t value, Uint128 numerator) {
 } // namespace
 
 TEST_CASE("a product of two words by digits of 16 bits", "[number][digits]") {
-    for (const std::uint64_t a : edges()) {
-        for (const std::uint64_t b : edges()) {
-            const auto x = static_cast<std::uint32_t>(a);
-            const auto y = static_cast<std::uint32_t>(b);
-            if (detail::product_of_halves(x, y) != static_cast<std::uint64_t>(x) * y) {
-                FAIL_SAMPLE(x, y);
-            }
+    each_pair(edges(), [](std::uint64_t a, std::uint64_t b) {
+        const auto x = static_cast<std::uint32_t>(a);
+        const auto y = static_cast<std::uint32_t>(b);
+        if (detail::product_of_halves(x, y) != static_cast<std::uint64_t>(x) * y) {
+            FAIL_SAMPLE(x, y);
         }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    });
+    sampled(samples, [&](Operands& random) {
         const auto x = static_cast<std::uint32_t>(random.unsigned64());
         const auto y = static_cast<std::uint32_t>(random.unsigned64());
         if (detail::product_of_halves(x, y) != static_cast<std::uint64_t>(x) * y) {
             FAIL_SAMPLE(x, y);
         }
-    }
+    });
 }
 
 TEST_CASE("reciprocals of words", "[number][digits]") {
@@ -84,11 +79,10 @@ TEST_CASE("digits of quotients", "[number][digits]") {
             }
         }
     }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const std::uint64_t value = random.unsigned64() | 1U;
         check_division(value, (static_cast<Uint128>(random.unsigned64()) << 64) | random.unsigned64());
         // just below a multiple of the divisor
         check_division(value, (static_cast<Uint128>(value << std::countl_zero(value)) << 64) - 1U);
-    }
+    });
 }

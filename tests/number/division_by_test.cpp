@@ -10,8 +10,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 void check_quotient(std::int32_t a, std::int32_t b) {
     if (b <= 0) {
         return;
@@ -76,14 +74,13 @@ TEST_CASE("a quotient of Fixed by a quarter of a number of one word is rounded u
 }
 
 TEST_CASE("a divisor of Fixed gives the quotients that the operator gives", "[number][division]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const Fixed a = Fixed::from_raw(random.signed64());
         const Fixed b = Fixed::from_raw(std::max<std::int64_t>(1, random.signed64()));
         if ((a / DivisionBy(b)).raw() != detail::quotient(a.raw(), b.raw())) {
             FAIL_SAMPLE(a.raw(), b.raw());
         }
-    }
+    });
     CHECK(Fixed{3} / DivisionBy<Fixed>() == Fixed{3});
 }
 

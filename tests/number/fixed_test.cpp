@@ -12,7 +12,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
 constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
 
@@ -77,30 +76,18 @@ TEST_CASE("the range of Fixed", "[number][fixed]") {
 }
 
 TEST_CASE("sums are exact or saturate", "[number][fixed]") {
-    for (const std::int64_t a : signed_edges()) {
-        for (const std::int64_t b : signed_edges()) {
-            check_sum(a, b);
-        }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
-        check_sum(random.signed64(), random.signed64());
-    }
+    each_pair(signed_edges(), check_sum);
+    sampled(samples, [&](Operands& random) { check_sum(random.signed64(), random.signed64()); });
     REQUIRE(-Fixed{5} == Fixed{-5});
     REQUIRE(-Fixed::max() == Fixed::lowest() + Fixed::resolution());
 }
 
 TEST_CASE("products are rounded to nearest or saturate", "[number][fixed]") {
-    for (const std::int64_t a : signed_edges()) {
-        for (const std::int64_t b : signed_edges()) {
-            check_product(a, b);
-        }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    each_pair(signed_edges(), check_product);
+    sampled(samples, [&](Operands& random) {
         check_product(random.signed64(), random.signed64());
         check_product(random.signed_below(48), random.signed_below(47)); // mostly without overflow
-    }
+    });
 }
 
 TEST_CASE("products of small operands: every tie", "[number][fixed]") {
@@ -119,16 +106,11 @@ TEST_CASE("products of small operands: every tie", "[number][fixed]") {
 }
 
 TEST_CASE("quotients are rounded to nearest or saturate", "[number][fixed]") {
-    for (const std::int64_t a : signed_edges()) {
-        for (const std::int64_t b : signed_edges()) {
-            check_quotient(a, b);
-        }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    each_pair(signed_edges(), check_quotient);
+    sampled(samples, [&](Operands& random) {
         check_quotient(random.signed64(), random.signed64());
         check_quotient(random.signed_below(50), random.signed_below(48));
-    }
+    });
 }
 
 TEST_CASE("quotients of small operands: every tie", "[number][fixed]") {
@@ -145,8 +127,7 @@ TEST_CASE("quotients of small operands: every tie", "[number][fixed]") {
 }
 
 TEST_CASE("rounding is the same on both sides of zero", "[number][fixed]") {
-    Operands random;
-    for (int i = 0; i < samples / 4; ++i) {
+    sampled(samples / 4, [&](Operands& random) {
         const Fixed a = Fixed::from_raw(random.signed_below(47));
         const Fixed b = Fixed::from_raw(random.signed_below(47));
         if (-a * b != -(a * b) || a * -b != -(a * b)) {
@@ -156,7 +137,7 @@ TEST_CASE("rounding is the same on both sides of zero", "[number][fixed]") {
             (-a / b != -(a / b) || a / -b != -(a / b))) {
             FAIL_SAMPLE(a.raw(), b.raw());
         }
-    }
+    });
 }
 
 TEST_CASE("division by zero is the limit on the side of the numerator", "[number][fixed]") {
@@ -210,14 +191,13 @@ TEST_CASE("which doubles are representable", "[number][fixed]") {
 }
 
 TEST_CASE("doubles are rounded to the nearest Fixed, ties away from zero", "[number][fixed]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         // std::round has the same rule, and scaling by 2^32 is exact
         const double value = random.real(-36, 30);
         if (Fixed::from_double(value).raw() != static_cast<std::int64_t>(std::round(value * 4294967296.0))) {
             FAIL_SAMPLE(value);
         }
-    }
+    });
     for (int k = -1000; k <= 1000; ++k) {
         REQUIRE(Fixed::from_double(std::ldexp(k, -34)).raw() == std::lround(k / 4.0));
     }

@@ -14,7 +14,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 500'000;
 constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
 
@@ -44,8 +43,7 @@ TEST_CASE("positions compare like numbers", "[number][position]") {
 }
 
 TEST_CASE("Fixed distances are rounded shifts", "[number][position]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples / 2, [&](Operands& random) {
         const std::int64_t from = random.signed_below(62);
         const std::int64_t to = random.signed_below(62);
         const int unit = random.between(-60, 60);
@@ -56,7 +54,7 @@ TEST_CASE("Fixed distances are rounded shifts", "[number][position]") {
         if (distance<Fixed>(Position{from}, Position{to}, unit).raw() != expected) {
             FAIL_SAMPLE(from, to, unit);
         }
-    }
+    });
     REQUIRE(distance<Fixed>(Position{1}, Position{4}, -7) == Fixed::from_raw(2));
     REQUIRE(distance<Fixed>(Position{4}, Position{1}, -7) == Fixed::from_raw(-2));
 }
@@ -69,11 +67,10 @@ TEMPLATE_TEST_CASE("float and double distances are the nearest numbers", "[numbe
             FAIL_SAMPLE(from, to, unit, distance<TestType>(Position{from}, Position{to}, unit));
         }
     };
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples / 2, [&](Operands& random) {
         check(random.signed_below(62), random.signed_below(62), random.between(-60, 60));
         check(random.signed_below(52), random.signed_below(52), 0);
-    }
+    });
     // Next to the middle between two floats: ties to even, and a distant last bit breaks the tie
     for (int shift = 0; shift < 38; ++shift) {
         for (std::int64_t significand = (1 << 24) + 1; significand < (1 << 24) + 64; ++significand) {
@@ -90,7 +87,7 @@ TEMPLATE_TEST_CASE("float and double distances are the nearest numbers", "[numbe
 
 TEMPLATE_TEST_CASE("a distance does not depend on where it is", "[number][position]", float, double, Fixed) {
     Operands random;
-    for (int i = 0; i < samples / 2; ++i) {
+    for (int i = 0; i < samples / 4; ++i) {
         const Position from{random.signed_below(40)};
         const Position to{random.signed_below(40)};
         const std::int64_t moved = random.signed_below(52);
@@ -105,11 +102,10 @@ TEMPLATE_TEST_CASE("a distance does not depend on where it is", "[number][positi
 
 TEMPLATE_TEST_CASE("displacements by float and double are rounded once", "[number][position]", float, double) {
     using Limits = std::numeric_limits<TestType>;
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples / 2, [&](Operands& random) {
         check_displaced(random.signed_below(53), static_cast<TestType>(random.real(-40, 22)), 0);
         check_displaced(random.signed64(), static_cast<TestType>(random.real(-90, 90)), random.between(-60, 60));
-    }
+    });
     for (int k = -2000; k <= 2000; ++k) {
         check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-42}, 0); // quarters: every second one a tie
         check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-28}, -14);
@@ -131,7 +127,7 @@ TEMPLATE_TEST_CASE("displacements by float and double are rounded once", "[numbe
 
 TEST_CASE("displacements by Fixed are rounded shifts", "[number][position]") {
     Operands random;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < samples / 2; ++i) {
         check_displaced(random.signed_below(60), Fixed::from_raw(random.signed64()), random.between(-60, 60));
     }
 }
@@ -139,7 +135,7 @@ TEST_CASE("displacements by Fixed are rounded shifts", "[number][position]") {
 TEMPLATE_TEST_CASE("a displacement undoes a distance", "[number][position]", float, double, Fixed) {
     // Exact as long as the distance has no more digits than the scalar: 24 bits for float
     Operands random;
-    for (int i = 0; i < samples / 2; ++i) {
+    for (int i = 0; i < samples / 4; ++i) {
         const Position from{random.signed_below(52)};
         const Position to{from.raw + random.signed_below(24)};
         const int unit = random.between(-15, -8);
@@ -162,7 +158,7 @@ TEST_CASE("scaled positions are rounded to nearest or saturate", "[number][posit
             FAIL_SAMPLE(raw, factor, shift, expected);
         }
     };
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < samples / 2; ++i) {
         check(random.signed64(), random.unsigned64(), random.between(0, 127));
         check(random.signed_below(53), random.unsigned64() >> 20, 64);
     }
@@ -184,13 +180,12 @@ TEST_CASE("scaled positions are rounded to nearest or saturate", "[number][posit
 TEST_CASE("positions and micrometres", "[number][position]") {
     STATIC_REQUIRE(position_from_um(1000).raw == std::int64_t{1} << 40);
     STATIC_REQUIRE(position_from_um(-2500).raw == -(std::int64_t{5} << 39));
-    Operands random;
-    for (int i = 0; i < 1000; ++i) {
+    sampled(1000, [&](Operands& random) {
         const std::int64_t um = random.signed_below(29);
         const long double wanted = static_cast<long double>(um) * 0x1p40L / 1000.0L;
         REQUIRE(std::fabs(static_cast<long double>(position_from_um(um).raw) - wanted) < 1.01L);
         REQUIRE(position_from_um(-um).raw == -position_from_um(um).raw);
-    }
+    });
     REQUIRE(position_from_um(8'388'607'999).raw > position_from_um(8'388'607'998).raw);
 }
 
@@ -199,8 +194,7 @@ TEST_CASE("positions and millimetres", "[number][position]") {
     REQUIRE(to_mm(Position{-(std::int64_t{5} << 38)}) == -1.25);
     REQUIRE(position_from_mm(0x1p-41).raw == 1);
     REQUIRE(position_from_mm(-0x1p-41).raw == -1);
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples / 2, [&](Operands& random) {
         const Position position{random.signed_below(52)};
         if (position_from_mm(to_mm(position)) != position) {
             FAIL_SAMPLE(position.raw);
@@ -209,7 +203,7 @@ TEST_CASE("positions and millimetres", "[number][position]") {
         if (std::fabs(to_mm(position_from_mm(mm)) - mm) > 0x1p-41) {
             FAIL_SAMPLE(mm);
         }
-    }
+    });
     REQUIRE(position_representable(1048576.0));
     REQUIRE(position_representable(-1048576.0));
     REQUIRE_FALSE(position_representable(std::nextafter(1048576.0, 2e6)));

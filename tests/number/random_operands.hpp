@@ -71,6 +71,26 @@ private:
     std::mt19937_64 generator_{seed};
 };
 
+inline constexpr int samples = 1'000'000;
+
+/// What is checked draws its own operands, the same in each run.
+template <class Check>
+void sampled(int count, Check check) {
+    Operands random;
+    for (int i = 0; i < count; ++i) {
+        check(random);
+    }
+}
+
+template <class Values, class Check>
+void each_pair(const Values& values, Check check) {
+    for (const auto a : values) {
+        for (const auto b : values) {
+            check(a, b);
+        }
+    }
+}
+
 /// 0, and 2^k - 1, 2^k, 2^k + 1 for all k: every place where a carry or a shift can go wrong.
 inline std::vector<std::uint64_t> edges() {
     std::vector<std::uint64_t> values{0U, ~std::uint64_t{0}};

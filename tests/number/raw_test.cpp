@@ -10,8 +10,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 void check_short_product(std::int64_t a, std::int64_t b) {
     const std::int64_t limit = std::int64_t{1} << 47;
     const bool both = a >= -limit && a < limit && b >= -limit && b < limit;
@@ -83,19 +81,10 @@ void check_shifts(std::int64_t value) {
     check_shift<80>(value);
 }
 
-template <class Check>
-void at_edges(Check check) {
-    for (const std::int64_t a : signed_edges()) {
-        for (const std::int64_t b : signed_edges()) {
-            check(a, b);
-        }
-    }
-}
-
 } // namespace
 
 TEST_CASE("short products", "[number][raw]") {
-    at_edges(check_short_product);
+    each_pair(signed_edges(), check_short_product);
     for (std::int64_t a = -300; a <= 300; ++a) {
         for (std::int64_t b = -300; b <= 300; ++b) { // every tie
             check_short_product(a * (1 << 16), b * (1 << 15));
@@ -111,7 +100,7 @@ TEST_CASE("short products", "[number][raw]") {
 }
 
 TEST_CASE("quotients by digits", "[number][raw]") {
-    at_edges(check_quotient);
+    each_pair(signed_edges(), check_quotient);
     for (std::int64_t a = -200; a <= 200; ++a) {
         for (std::int64_t b = -200; b <= 200; ++b) { // every tie
             check_quotient(a, b * (std::int64_t{1} << 33));
@@ -127,7 +116,7 @@ TEST_CASE("quotients by digits", "[number][raw]") {
 }
 
 TEST_CASE("sums saturate", "[number][raw]") {
-    at_edges(check_sum);
+    each_pair(signed_edges(), check_sum);
     Operands random;
     for (int i = 0; i < samples; ++i) {
         check_sum(random.signed64(), random.signed64());
@@ -138,8 +127,5 @@ TEST_CASE("shifts by constants", "[number][raw]") {
     for (const std::int64_t value : signed_edges()) {
         check_shifts(value);
     }
-    Operands random;
-    for (int i = 0; i < samples / 4; ++i) {
-        check_shifts(random.signed64());
-    }
+    sampled(samples / 4, [&](Operands& random) { check_shifts(random.signed64()); });
 }

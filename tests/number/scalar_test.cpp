@@ -17,8 +17,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 /// round(sqrt(n)) in exact integers: (r - 1/2)^2 < n < (r + 1/2)^2
 bool is_nearest_root(Uint128 r, Uint128 n) {
     return n <= r * r + r && (n == 0 ? r == 0 : n > r * r - r);
@@ -53,10 +51,7 @@ TEST_CASE("Fixed square roots are the nearest numbers", "[number][scalar]") {
         check(raw);
         check(std::numeric_limits<std::int64_t>::max() - raw);
     }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
-        check(static_cast<std::int64_t>(random.unsigned64() >> 1));
-    }
+    sampled(samples, [&](Operands& random) { check(static_cast<std::int64_t>(random.unsigned64() >> 1)); });
     static_assert(square_root(Fixed{144}) == Fixed{12});
 }
 
@@ -74,10 +69,7 @@ TEST_CASE("Fixed reciprocal square roots are the nearest numbers", "[number][sca
         check(raw);
         check(std::numeric_limits<std::int64_t>::max() - raw);
     }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
-        check(static_cast<std::int64_t>((random.unsigned64() >> 1) | 1U));
-    }
+    sampled(samples, [&](Operands& random) { check(static_cast<std::int64_t>((random.unsigned64() >> 1) | 1U)); });
     REQUIRE(reciprocal_square_root(Fixed::resolution()) == Fixed{1 << 16});
     static_assert(reciprocal_square_root(Fixed{4}) == Fixed::from_raw(std::int64_t{1} << 31));
 }
@@ -90,8 +82,7 @@ TEST_CASE("square roots of float and double are the nearest numbers, with and wi
             FAIL_SAMPLE(value, square_root(value), detail::square_root_by_integers(value), expected);
         }
     };
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const std::uint64_t bits = random.bits(); // any exponent, subnormals included
         const auto x = std::bit_cast<double>((bits >> 1) % 0x7ff0000000000000U);
         const auto y = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 33) % 0x7f800000U);
@@ -99,7 +90,7 @@ TEST_CASE("square roots of float and double are the nearest numbers, with and wi
         check(y);
         check(std::bit_cast<double>(bits >> random.between(12, 63)));
         check(std::bit_cast<float>(static_cast<std::uint32_t>(bits >> random.between(41, 63))));
-    }
+    });
     for (int k = 0; k < 100'000; ++k) {
         check(static_cast<float>(k) * static_cast<float>(k));
         check(std::nextafter(static_cast<float>(k) * static_cast<float>(k), 1e30F));
@@ -128,8 +119,7 @@ TEMPLATE_TEST_CASE("reciprocal square roots of float and double", "[number][scal
 // ---- norm
 
 TEST_CASE("Fixed norms are the nearest numbers", "[number][scalar]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         std::array<Fixed, 6> v;
         const int n = random.between(0, 6);
         const int bits = random.between(1, 62);
@@ -144,7 +134,7 @@ TEST_CASE("Fixed norms are the nearest numbers", "[number][scalar]") {
         if (saturates ? length != Fixed::max() : !is_nearest_root(static_cast<Uint128>(length.raw()), sum)) {
             FAIL_SAMPLE(n, v[0].raw(), v[1].raw(), v[2].raw(), v[3].raw(), v[4].raw(), v[5].raw(), length.raw());
         }
-    }
+    });
 }
 
 TEST_CASE("Fixed norms at the limits", "[number][scalar]") {
@@ -235,8 +225,7 @@ TEMPLATE_TEST_CASE("absolute value, smaller and larger", "[number][scalar]", flo
 // ---- quotient_or_max
 
 TEST_CASE("Fixed quotients that do not fit are the largest number", "[number][scalar]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const auto a = static_cast<std::int64_t>(random.unsigned64() >> 1);
         const auto b = static_cast<std::int64_t>(random.unsigned64() >> 1);
         const std::int64_t expected =
@@ -245,7 +234,7 @@ TEST_CASE("Fixed quotients that do not fit are the largest number", "[number][sc
         if (quotient_or_max(Fixed::from_raw(a), Fixed::from_raw(b)).raw() != expected) {
             FAIL_SAMPLE(a, b);
         }
-    }
+    });
     REQUIRE(quotient_or_max(Fixed{}, Fixed{}) == Fixed::max());
     REQUIRE(quotient_or_max(Fixed{6}, Fixed{4}) == Fixed::from_double(1.5));
 }
@@ -284,13 +273,12 @@ TEMPLATE_TEST_CASE("quotients of float and double are never infinite", "[number]
 // ---- conversions
 
 TEMPLATE_TEST_CASE("conversions of whole numbers and constants", "[number][scalar]", float, double, Fixed) {
-    Operands random;
-    for (int i = 0; i < 10'000; ++i) {
+    sampled(10'000, [&](Operands& random) {
         const auto k = static_cast<std::int32_t>(random.signed_below(24));
         if (to_double(from_integer<TestType>(k)) != k || from_double<TestType>(k) != from_integer<TestType>(k)) {
             FAIL_SAMPLE(k);
         }
-    }
+    });
     REQUIRE((to_double(from_integer<TestType>(std::numeric_limits<std::int32_t>::min())) == -2147483648.0));
     constexpr TestType eighth = literal<TestType>(0.125);
     static_assert(to_double(eighth) == 0.125);

@@ -13,8 +13,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 std::int32_t nearest_word(Int128 value) {
     constexpr std::int32_t low = std::numeric_limits<std::int32_t>::min();
     constexpr std::int32_t high = std::numeric_limits<std::int32_t>::max();
@@ -75,12 +73,10 @@ std::int32_t random_word(Operands& random) {
 
 TEST_CASE("numbers of one word: sums, products, multiples and means are exact, nearest or saturated",
           "[number][short]") {
-    for (const std::int32_t a : word_edges()) {
-        for (const std::int32_t b : word_edges()) {
-            check_pair(a, b);
-            check_mean(a, b);
-        }
-    }
+    each_pair(word_edges(), [](std::int32_t a, std::int32_t b) {
+        check_pair(a, b);
+        check_mean(a, b);
+    });
     Operands random;
     for (int i = 0; i < samples; ++i) {
         const std::int32_t a = random_word(random);
@@ -103,8 +99,7 @@ TEST_CASE("numbers of one word: a product with Fixed is the nearest or saturates
 }
 
 TEST_CASE("numbers of one word: conversions are rounded to nearest or saturate", "[number][short]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const Fixed x = Fixed::from_raw(random.signed64());
         const int log2 = random.between(-40, 40);
         const int exponent = log2 - 2; // from 32 to 30 bits
@@ -119,7 +114,7 @@ TEST_CASE("numbers of one word: conversions are rounded to nearest or saturate",
         if (word != nearest_word(exact) || back.raw() != std::int64_t{word} * 128) {
             FAIL_SAMPLE(x.raw(), log2);
         }
-    }
+    });
     STATIC_REQUIRE(std::same_as<Ratio<Fixed>, ShortFixed>);
     STATIC_REQUIRE(std::same_as<Ratio<float>, float>);
     STATIC_REQUIRE(literal<ShortFixed>(0.75).raw() == 3 << 28);

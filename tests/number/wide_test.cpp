@@ -11,8 +11,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr int samples = 1'000'000;
-
 Uint128 value_of(Wide a) {
     return (static_cast<Uint128>(a.high) << 64) | a.low;
 }
@@ -79,32 +77,22 @@ void check_roots_at_square(std::uint64_t k) {
 } // namespace
 
 TEST_CASE("a product has all 128 bits", "[number][wide]") {
-    for (const std::uint64_t a : edges()) {
-        for (const std::uint64_t b : edges()) {
-            check_multiply(a, b);
-        }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
-        check_multiply(random.unsigned64(), random.unsigned64());
-    }
+    each_pair(edges(), check_multiply);
+    sampled(samples, [&](Operands& random) { check_multiply(random.unsigned64(), random.unsigned64()); });
     static_assert(multiply(~0ULL, ~0ULL) == Wide{~0ULL - 1U, 1U});
     static_assert(detail::multiply_digits(~0ULL, ~0ULL) == Wide{~0ULL - 1U, 1U});
 }
 
 TEST_CASE("sums, differences and comparisons carry between the halves", "[number][wide]") {
-    for (const std::uint64_t a : edges()) {
-        for (const std::uint64_t b : edges()) {
-            check_sums({a, b}, {b, a});
-            check_sums({1U, a}, {0U, b});
-            check_sums({a, b}, {a, b});
-        }
-    }
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    each_pair(edges(), [](std::uint64_t a, std::uint64_t b) {
+        check_sums({a, b}, {b, a});
+        check_sums({1U, a}, {0U, b});
+        check_sums({a, b}, {a, b});
+    });
+    sampled(samples, [&](Operands& random) {
         const Wide a{random.unsigned64(), random.unsigned64()};
         check_sums(a, {(random.bits() & 3U) == 0 ? a.high : random.unsigned64(), random.unsigned64()});
-    }
+    });
 }
 
 TEST_CASE("every shift of every bit", "[number][wide]") {
@@ -151,13 +139,12 @@ TEST_CASE("quotient and remainder are exact", "[number][wide]") {
 
 TEST_CASE("quotient digits whose estimate is one and two too large", "[number][wide]") {
     // A small leading and a large second denominator digit make the estimate from the leading digit worst.
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
+    sampled(samples, [&](Operands& random) {
         const std::uint64_t denominator = (random.bits() & 0x80000003ffffffffU) | 0x80000000fffff000U;
         const std::uint64_t high = denominator - 1U - (random.bits() & 0xfffU);
         check_divide({high, random.unsigned64()}, denominator);
         check_divide({high >> 32, random.unsigned64()}, denominator >> random.between(0, 31));
-    }
+    });
 }
 
 #ifdef NDEBUG
@@ -187,22 +174,18 @@ TEST_CASE("square roots next to squares", "[number][wide]") {
             check_root({a, b});
         }
     }
-    Operands random;
-    for (int i = 0; i < samples / 8; ++i) {
+    sampled(samples / 8, [&](Operands& random) {
         check_roots_at_square(random.unsigned64() | 2U);
         // The lower half of the root all ones or zeros: the corrections of the last digit
         check_roots_at_square((random.bits() << 32) | 0xffffffffU);
         check_roots_at_square((random.bits() << 32) | 2U);
-    }
+    });
     static_assert(square_root(Wide{~0ULL, ~0ULL}) == ~0ULL);
     static_assert(square_root_rounded(Wide{0U, 6U}) == 2U && square_root_rounded(Wide{0U, 7U}) == 3U);
 }
 
 TEST_CASE("square roots of random numbers", "[number][wide]") {
-    Operands random;
-    for (int i = 0; i < samples; ++i) {
-        check_root({random.unsigned64(), random.unsigned64()});
-    }
+    sampled(samples, [&](Operands& random) { check_root({random.unsigned64(), random.unsigned64()}); });
 }
 
 TEST_CASE("the root of the upper half is exact over the whole table", "[number][wide]") {

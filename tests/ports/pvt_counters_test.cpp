@@ -2,6 +2,7 @@
 // Counters of the map splinefeed-pvt that wrap on the way: sequence numbers of 32 bits, command counters and nonces
 // of 16.
 #include "ports/pvt_plant.hpp"
+#include "ports/run_plant.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
@@ -16,45 +17,13 @@ const SmoothMotion motion = smooth_motion(20000.0, 2, 150, 2000);
 /// As if somebody had spoken with the drive for long: its next nonce and command counter are near their end.
 void age(host::PvtDrive& drive, std::uint16_t nonce, std::uint16_t counter) {
     PvtBlockRegisters registers{};
-    const PvtBlock block{.nonce = nonce,
-                         .session = 7,
-                         .command = PvtCommand::disable,
-                         .command_counter = counter,
-                         .argument = 0,
-                         .count = 0,
-                         .first = 0};
+    const PvtBlock block{.nonce = nonce, .session = 7, .command = PvtCommand::disable, .command_counter = counter};
     const std::size_t size = encode(block, {}, drive.axes(), registers);
     REQUIRE(drive.write(pvt::block_address, std::span(registers).first(size)) == host::ModbusException::none);
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const std::span<std::uint16_t> status(raw.data(), pvt::status_registers(drive.axes()));
     REQUIRE(drive.read(pvt::status_address, status) == host::ModbusException::none);
     REQUIRE(decode_status(status, drive.axes()).last_command == counter);
-}
-
-struct Run {
-    PortState state;
-    std::uint32_t resumes = 0;
-};
-
-Run run(PvtPlant& plant) {
-    ModbusPort& port = *plant.port;
-    REQUIRE_FALSE(port.open());
-    REQUIRE_FALSE(port.prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
-    Run out;
-    std::size_t next = 0;
-    do {
-        while (next < motion.segments.size() && port.room() > 0 && port.submit(motion.segments[next])) {
-            ++next;
-        }
-        if (next == motion.segments.size()) {
-            port.complete();
-        }
-        out.state = port.poll();
-        plant.clock.sleep_us(1000);
-    } while (out.state.phase == PortPhase::running && plant.clock.now_us() < plant.began_us + 20'000'000);
-    out.resumes = port.resumes();
-    return out;
 }
 
 } // namespace
@@ -67,22 +36,14 @@ TEST_CASE("PVT port, virtual: sequence numbers wrap on the way, and nothing is l
             if (away) { // longer than what the others have
                 plant.wires[1]->unplugged.push_back({plant.clock.now_us() + 250'000, plant.clock.now_us() + 1'100'000});
             }
-            const std::uint32_t first = 0U - before;
             ModbusPortSettings settings;
-            settings.first_sequence = first;
-            plant.make(settings);
-            plant.sample_positions();
-            const Run done = run(plant);
-            CHECK(done.state.phase == PortPhase::idle);
-            CHECK(done.state.executed == motion.segments.size());
-            CHECK((done.resumes > 0) == away);
+            settings.first_sequence = 0U - before;
+            plant.begin(motion, settings);
+            CHECK(run(plant, motion, {}) == PortPhase::idle);
+            CHECK(plant.port->poll().executed == motion.segments.size());
+            CHECK((plant.port->resumes() > 0) == away);
             for (std::size_t i = 0; i < 3; ++i) {
-                std::uint32_t wrong = 0;
-                for (std::size_t n = 0; n < plant.executed[i].size(); ++n) {
-                    wrong += plant.executed[i][n] == first + static_cast<std::uint32_t>(n) ? 0U : 1U;
-                }
-                CHECK(wrong == 0);
-                CHECK(plant.executed[i].size() == motion.segments.size());
+                CHECK(plant.executed_once(i) == motion.segments.size());
                 CHECK(plant.port->report(i).counts.segments == motion.segments.size());
             }
             CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
@@ -98,11 +59,9 @@ TEST_CASE("PVT port, virtual: command counters and nonces wrap on the way", "[po
         for (host::PvtDrive* drive : plant.drives) {
             age(*drive, static_cast<std::uint16_t>(0xFFFFU - left), static_cast<std::uint16_t>(0xFFFFU - left));
         }
-        plant.make();
-        plant.sample_positions();
-        const Run done = run(plant);
-        CHECK(done.state.phase == PortPhase::idle);
-        CHECK(done.resumes == 0);
+        plant.begin(motion);
+        CHECK(run(plant, motion, {}) == PortPhase::idle);
+        CHECK(plant.port->resumes() == 0);
         for (std::size_t i = 0; i < 3; ++i) {
             CHECK(plant.executed_once(i) == motion.segments.size());
         }

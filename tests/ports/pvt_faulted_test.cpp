@@ -105,50 +105,35 @@ struct Scenario : FaultedRun {
 using Phase = ModbusPhase;
 using Event = ModbusEvent;
 
-constexpr auto unasked = "no stop was requested";
-constexpr auto not_started = "nothing was started";
-constexpr auto one_motion = "a run has one motion";
-constexpr auto once_more = "a port that is asked for a stop looks at nothing but the stop";
-
 // Cells that no run can visit.
 const std::vector<NeverVisited<Phase, Event>> never_visited{
-    {Phase::filling, {Event::started, Event::disturbed, Event::stands}, not_started},
-    {Phase::filling, {Event::settled, Event::failed}, unasked},
-    {Phase::starting,
+    {{Phase::filling}, {Event::started, Event::disturbed, Event::stands}, "nothing was started"},
+    {{Phase::filling, Phase::starting, Phase::running, Phase::stopping, Phase::waiting},
+     {Event::settled, Event::failed},
+     "no stop was requested"},
+    {{Phase::starting},
      {Event::ready, Event::disturbed, Event::stands, Event::executed},
      "it waits for the answers to the start alone"},
-    {Phase::starting, {Event::settled, Event::failed}, unasked},
-    {Phase::running, {Event::ready, Event::started, Event::stands}, "who runs was ready and started"},
-    {Phase::running, {Event::settled, Event::failed}, unasked},
-    {Phase::stopping,
+    {{Phase::running}, {Event::ready, Event::started, Event::stands}, "who runs was ready and started"},
+    {{Phase::stopping},
      {Event::ready, Event::started, Event::disturbed, Event::executed},
      "it waits until all stand, whatever they have executed"},
-    {Phase::stopping, {Event::settled, Event::failed}, unasked},
-    {Phase::waiting, {Event::started, Event::disturbed, Event::stands}, "all stand already, and nothing was started"},
-    {Phase::waiting, {Event::settled, Event::failed}, unasked},
-    {Phase::halting, {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed}, once_more},
-    {Phase::halting, {Event::broken}, "no segment is accepted any more, and nobody looks for another problem"},
-    {Phase::halting,
+    {{Phase::waiting}, {Event::started, Event::disturbed, Event::stands}, "all stand already, and nothing was started"},
+    {{Phase::halting, Phase::halted, Phase::done, Phase::fault},
+     {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed},
+     "a port that is asked for a stop looks at nothing but the stop"},
+    {{Phase::halting}, {Event::broken}, "no segment is accepted any more, and nobody looks for another problem"},
+    {{Phase::halting},
      {Event::overdue},
      "a StopSequence ends or makes its next request before, and its bound counts from that"},
-    {Phase::halted, {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed}, once_more},
-    {Phase::halted, {Event::broken, Event::failed}, "no segment is accepted any more, so there is no failure"},
-    {Phase::halted, {Event::overdue}, "it has no bound"},
-    {Phase::done,
-     {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed, Event::settled, Event::failed},
-     "nothing is looked at any more"},
-    {Phase::done, {Event::overdue}, "it has no bound"},
-    {Phase::fault, {Event::ready, Event::started, Event::disturbed, Event::stands, Event::executed}, once_more},
-    {Phase::fault, {Event::broken, Event::settled}, "it has its failure"},
-    {Phase::fault, {Event::overdue}, "it has no bound"},
-    {Phase::starting, {Event::renewed}, one_motion},
-    {Phase::running, {Event::renewed}, one_motion},
-    {Phase::stopping, {Event::renewed}, one_motion},
-    {Phase::waiting, {Event::renewed}, one_motion},
-    {Phase::halting, {Event::renewed}, one_motion},
-    {Phase::halted, {Event::renewed}, one_motion},
-    {Phase::done, {Event::renewed}, one_motion},
-    {Phase::fault, {Event::renewed}, one_motion},
+    {{Phase::halted}, {Event::broken, Event::failed}, "no segment is accepted any more, so there is no failure"},
+    {{Phase::halted, Phase::done, Phase::fault}, {Event::overdue}, "it has no bound"},
+    {{Phase::done}, {Event::settled, Event::failed}, "nothing is looked at any more"},
+    {{Phase::fault}, {Event::broken, Event::settled}, "it has its failure"},
+    {{Phase::starting, Phase::running, Phase::stopping, Phase::waiting, Phase::halting, Phase::halted, Phase::done,
+      Phase::fault},
+     {Event::renewed},
+     "a run has one motion"},
 };
 
 using Tally = FaultedTally<ModbusPhase, ModbusEvent>;

@@ -138,24 +138,25 @@ TEST_CASE("PVT port, virtual: whatever a drive reports or leaves undone, the run
               PortPhase::halted);
     }
     std::vector<Cells::Never> never{
-        {ModbusPhase::halting, {ModbusEvent::overdue}, "a StopSequence ends before: it has bounds of its own"},
-        {ModbusPhase::filling, {ModbusEvent::executed}, "motions without segments are not run"},
-        {ModbusPhase::starting, {ModbusEvent::stop}, "it lasts for some ms: pvt_stop_test.cpp asks for holds then"},
-        {ModbusPhase::stopping, {ModbusEvent::stop}, "no run of this test asks for a stop just then"},
-        {ModbusPhase::waiting, {ModbusEvent::stop}, "the same"},
-        {ModbusPhase::waiting, {ModbusEvent::executed}, "no run of this test stops at its last segment"},
-        {ModbusPhase::starting, {ModbusEvent::broken}, "of a segment out of range: pvt_counters_test.cpp"},
-        {ModbusPhase::running, {ModbusEvent::broken}, "the same"},
-        {ModbusPhase::stopping, {ModbusEvent::broken}, "the same"},
-        {ModbusPhase::halted, {ModbusEvent::renewed}, "a run has one motion: pvt_renew_test.cpp has more"},
-        {ModbusPhase::done, {ModbusEvent::renewed}, "the same"},
-        {ModbusPhase::fault, {ModbusEvent::renewed}, "the same"},
-        {ModbusPhase::done, {ModbusEvent::broken}, "the same, behind complete(): an error of the caller"},
+        {{ModbusPhase::halting}, {ModbusEvent::overdue}, "a StopSequence ends before: it has bounds of its own"},
+        {{ModbusPhase::filling}, {ModbusEvent::executed}, "motions without segments are not run"},
+        {{ModbusPhase::starting}, {ModbusEvent::stop}, "it lasts for some ms: pvt_stop_test.cpp asks for holds then"},
+        {{ModbusPhase::stopping, ModbusPhase::waiting},
+         {ModbusEvent::stop},
+         "no run of this test asks for a stop just then"},
+        {{ModbusPhase::waiting}, {ModbusEvent::executed}, "no run of this test stops at its last segment"},
+        {{ModbusPhase::starting, ModbusPhase::running, ModbusPhase::stopping},
+         {ModbusEvent::broken},
+         "of a segment out of range: pvt_counters_test.cpp"},
+        {{ModbusPhase::halted, ModbusPhase::done, ModbusPhase::fault},
+         {ModbusEvent::renewed},
+         "a run has one motion: pvt_renew_test.cpp has more"},
+        {{ModbusPhase::done}, {ModbusEvent::broken}, "it comes behind complete(): an error of the caller"},
     };
     for (std::size_t i = 0; i < ModbusPhases::phases; ++i) {
         for (std::size_t j = 0; j < ModbusPhases::events; ++j) {
             if (modbus_phase_table()[i][j] == static_cast<ModbusPhase>(i)) {
-                never.push_back({static_cast<ModbusPhase>(i), {static_cast<ModbusEvent>(j)}, "it changes nothing"});
+                never.push_back({{static_cast<ModbusPhase>(i)}, {static_cast<ModbusEvent>(j)}, "it changes nothing"});
             }
         }
     }

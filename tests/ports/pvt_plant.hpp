@@ -77,7 +77,7 @@ public:
     /// Every segment from the first one on, in order, each once; how many, or nothing where that is not so.
     [[nodiscard]] std::optional<std::size_t> executed_once(std::size_t drive) const {
         for (std::size_t i = 0; i < executed[drive].size(); ++i) {
-            if (executed[drive][i] != first_sequence + i) {
+            if (executed[drive][i] != first_sequence + static_cast<std::uint32_t>(i)) {
                 return std::nullopt;
             }
         }

@@ -88,30 +88,25 @@ struct Scenario : FaultedRun {
 
 using Phase = SetpointPhase;
 using Event = SetpointEvent;
-constexpr auto unasked = "no stop was requested";
 
 // Cells that no run can visit.
 const std::vector<NeverVisited<Phase, Event>> never_visited{
-    {Phase::filling,
+    {{Phase::filling},
      {Event::slows, Event::stands, Event::ready, Event::ran_out, Event::arrived},
      "the clock was not started"},
-    {Phase::filling, {Event::settles, Event::fails}, unasked},
-    {Phase::running, {Event::stands, Event::ready}, "the clock slows down first"},
-    {Phase::running, {Event::arrived}, "the time runs out first"},
-    {Phase::running, {Event::settles, Event::fails}, unasked},
-    {Phase::arriving, {Event::stands, Event::ready}, "the clock slows down first"},
-    {Phase::arriving, {Event::settles, Event::fails}, unasked},
-    {Phase::stopping, {Event::ready}, "the clock stands first"},
-    {Phase::stopping, {Event::settles, Event::fails}, unasked},
-    {Phase::starved, {Event::ran_out, Event::arrived}, "a motion that has its end is filled"},
-    {Phase::starved, {Event::settles, Event::fails}, unasked},
-    {Phase::returning, {Event::settles, Event::fails}, unasked},
-    {Phase::ending, {Event::trouble}, "nobody looks for more trouble"},
-    {Phase::halted, {Event::trouble, Event::fails}, "nobody looks for trouble any more"},
-    {Phase::done,
+    {{Phase::filling, Phase::running, Phase::arriving, Phase::stopping, Phase::starved, Phase::returning},
+     {Event::settles, Event::fails},
+     "no stop was requested"},
+    {{Phase::running, Phase::arriving}, {Event::stands, Event::ready}, "the clock slows down first"},
+    {{Phase::running}, {Event::arrived}, "the time runs out first"},
+    {{Phase::stopping}, {Event::ready}, "the clock stands first"},
+    {{Phase::starved}, {Event::ran_out, Event::arrived}, "a motion that has its end is filled"},
+    {{Phase::ending}, {Event::trouble}, "nobody looks for more trouble"},
+    {{Phase::halted}, {Event::trouble, Event::fails}, "nobody looks for trouble any more"},
+    {{Phase::done},
      {Event::slows, Event::stands, Event::ready, Event::trouble, Event::settles, Event::fails},
      "the drives have arrived, and no stop was requested"},
-    {Phase::fault, {Event::trouble, Event::settles}, "it has its trouble"},
+    {{Phase::fault}, {Event::trouble, Event::settles}, "it has its trouble"},
 };
 
 using Tally = FaultedTally<SetpointPhase, SetpointEvent>;

@@ -90,23 +90,17 @@ TEST_CASE("Spindle: with each profile it turns as ordered, and is at speed only 
         CAPTURE(name);
         Bench bench(name);
         REQUIRE(bench.spindle->open().empty());
-        bench.spindle->order({1, 200.0});
-        CHECK_FALSE(bench.spindle->reached());
-        bench.pass_ms(2500, [&] {
-            if (bench.spindle->reached()) {
-                REQUIRE(bench.vfd->output_hz() > 0.975 * 200.0);
-            }
-        });
-        CHECK(bench.spindle->reached());
-        CHECK(bench.vfd->direction() == 1);
-        bench.spindle->order({1, 300.0});
-        CHECK_FALSE(bench.spindle->reached());
-        bench.pass_ms(1500, [&] {
-            if (bench.spindle->reached()) {
-                REQUIRE(bench.vfd->output_hz() > 0.975 * 300.0);
-            }
-        });
-        CHECK(bench.spindle->reached());
+        for (const auto& [hz, most_ms] : {std::pair{200.0, 2500}, std::pair{300.0, 1500}}) {
+            bench.spindle->order({1, hz});
+            CHECK_FALSE(bench.spindle->reached());
+            bench.pass_ms(most_ms, [&, hz = hz] {
+                if (bench.spindle->reached()) {
+                    REQUIRE(bench.vfd->output_hz() > 0.975 * hz);
+                }
+            });
+            CHECK(bench.spindle->reached());
+            CHECK(bench.vfd->direction() == 1);
+        }
         CHECK_FALSE(bench.spindle->stands());
         bench.spindle->order({0, 0.0});
         bench.pass_ms(200);

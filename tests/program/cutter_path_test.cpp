@@ -2,6 +2,7 @@
 // Cutter compensation: what its words do, and that the tool keeps its radius from random contours.
 #include "support/gcode.hpp"
 #include "support/rounds.hpp"
+#include "support/split.hpp"
 
 #include <cmath>
 #include <random>
@@ -219,30 +220,20 @@ TEST_CASE("feed of cutter compensation under G93 counts the programmed length", 
 TEST_CASE("what does not go with cutter compensation is refused", "[program][cutter_path][refusals]") {
     struct Case {
         const char* before;
-        const char* line;
+        const char* lines; ///< each behind that
         ProgramError error;
     };
     const char* const contour = "F600 G41.1 D2 G1 X10\nX20";
     const Case cases[] = {
         {"G19", "G41.1 D1", ProgramError::cutter_plane},
         {"F600", "G41.1", ProgramError::cutter_diameter_missing},
-        {"F600", "G41 D40", ProgramError::tool_unknown},
-        {"F600", "G41", ProgramError::tool_unknown},
+        {"F600", "G41 D40|G41", ProgramError::tool_unknown},
         {"F600", "G41.1 D1 L3", ProgramError::cutter_tool_unsuited},
         {"G41.1 D2 F600", "G1 X1", ProgramError::cutter_entry_too_short},
         {"G41.1 D4 F600", "G2 X1 Y1 R1", ProgramError::cutter_entry_too_short},
         {"G41.1 D2", "G42.1 D2", ProgramError::cutter_on},
-        {contour, "G18", ProgramError::cutter_active},
-        {contour, "G43.1 Z1", ProgramError::cutter_active},
-        {contour, "G55", ProgramError::cutter_active},
-        {contour, "M6", ProgramError::cutter_active},
-        {contour, "G92 X0", ProgramError::cutter_active},
-        {contour, "G53 G0 X0", ProgramError::cutter_active},
-        {contour, "G28", ProgramError::cutter_active},
-        {contour, "M66 P0", ProgramError::cutter_active},
-        {contour, "G38.2 X30", ProgramError::cutter_active},
-        {contour, "G81 X1 Z-1 R1", ProgramError::cutter_active},
-        {contour, "G5 X1 Y1 I1 J1 P1 Q1", ProgramError::cutter_active},
+        {contour, "G18|G43.1 Z1|G55|M6|G92 X0|G53 G0 X0|G28|M66 P0|G38.2 X30|G81 X1 Z-1 R1|G5 X1 Y1 I1 J1 P1 Q1",
+         ProgramError::cutter_active},
         {contour, "G3 X21 Y1 R0.8", ProgramError::cutter_arc_too_small},
         {"F600 G41.1 D2 G1 X10\nX11\nY0.5", "X0", ProgramError::cutter_gouge},
         {"F600 G41.1 D2 G1 X10\nX10.5", "Y5", ProgramError::cutter_gouge},
@@ -251,11 +242,12 @@ TEST_CASE("what does not go with cutter compensation is refused", "[program][cut
         {"F600 G41.1 D2 G1 X10\nX20\nG40", "G3 X30 R9", ProgramError::cutter_exit},
         {"F600 G41.1 D2 G1 X10\nX20\nM8\nM9\nM8\nM9\nM8\nM9", "M8 M3", ProgramError::cutter_far},
     };
-    for (const Case& one : cases) {
-        GcodeRun<double> run;
-        CAPTURE(one.before, one.line);
-        run.run(one.before);
-        const BlockStatus status = run.push(one.line);
-        CHECK(describe(status.error) == std::string(describe(one.error)));
+    for (const auto& [before, lines, error] : cases) {
+        for (const std::string& line : split(lines)) {
+            GcodeRun<double> run;
+            CAPTURE(before, line);
+            run.run(before);
+            CHECK(describe(run.push(line).error) == std::string(describe(error)));
+        }
     }
 }

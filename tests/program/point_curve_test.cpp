@@ -2,6 +2,7 @@
 // G5.5: the moves are those of the spline through all points, solved at once, and what ends it.
 #include "support/curve_oracle.hpp"
 #include "support/gcode.hpp"
+#include "support/split.hpp"
 
 #include <array>
 #include <cmath>
@@ -69,59 +70,33 @@ TEMPLATE_TEST_CASE("G5.5 is the G2 spline through its points", "[program][points
 }
 
 TEST_CASE("what ends a curve through points, and what does not", "[program][points]") {
-    const auto [line, ends] = GENERATE(table<std::string, bool>({{"G1 X9", true},
-                                                                 {"G1", true},
-                                                                 {"G0 X9", true},
-                                                                 {"G80", true},
-                                                                 {"G4 P0", true},
-                                                                 {"M8", true},
-                                                                 {"M62 P1", true},
-                                                                 {"S500", true},
-                                                                 {"T2", true},
-                                                                 {"G54", true},
-                                                                 {"G92 X0", true},
-                                                                 {"G43.1 Z1", true},
-                                                                 {"G64 P1", true},
-                                                                 {"G28", true},
-                                                                 {"(MSG,here)", true},
-                                                                 {"X4 M8", true},
-                                                                 {"G5 X9 Y9 I1 J1 P1 Q1", true},
-                                                                 {"G5.2 X9 Y9", true},
-                                                                 {"M0", true},
-                                                                 {"M2", true},
-                                                                 {"X4 M2", true},
-                                                                 {"X4 Y1 M0", true},
-                                                                 {"X4 M1", true},
-                                                                 {"%", true},
-                                                                 {"", false},
-                                                                 {"(here)", false},
-                                                                 {"N7", false},
-                                                                 {"G91", false},
-                                                                 {"G20 F9", false},
-                                                                 {"G17", false},
-                                                                 {"G94", false},
-                                                                 {"#1 = 5", false},
-                                                                 {"X4 Y1", false},
-                                                                 {"G5.5 X4", false}}));
-    CAPTURE(line);
-    GcodeRun<double> run;
-    run.run("G5.5 X1 Y0 F600\nX2 Y1\nX3 Y1");
-    CHECK(run.interpreter().has_curve());
-    CHECK(run.items().empty()); // of so few points nothing is known yet
-    const Decimal tolerance = run.interpreter().modal().tolerance_mm;
-    REQUIRE(run.push(line).ok());
-    const bool begins = line == "X4 M8"; // another one
-    CHECK(run.interpreter().has_curve() == (!ends || begins));
-    REQUIRE(run.items().size() >= (ends ? 3U : 0U));
-    if (ends) {
-        CHECK(run.item_text(2) == "feed bezier 3 1 0 degree 3");
-        CHECK(run.items()[2].element.tolerance_mm == Approx(number(tolerance))); // not that of the line
-        CHECK_FALSE(run.items()[0].element.joined);
-        CHECK(run.items()[2].element.joined);
-    } else {
-        CHECK(run.items().empty());
-        run.interpreter().end_curve(); // as where the input pauses
-        REQUIRE(run.push("").error == ProgramError::block_pending);
+    const std::pair<bool, const char*> groups[] = {
+        {true, "G1 X9|G1|G0 X9|G80|G4 P0|M8|M62 P1|S500|T2|G54|G92 X0"
+               "|G43.1 Z1|G64 P1|G28|(MSG,here)|X4 M8|G5 X9 Y9 I1 J1 P1 Q1|G5.2 X9 Y9|M0|M2|X4 M2|X4 Y1 M0|X4 M1|%"},
+        {false, "|(here)|N7|G91|G20 F9|G17|G94|#1 = 5|X4 Y1|G5.5 X4"}};
+    for (const auto& [ends, lines] : groups) {
+        for (const std::string& line : split(lines)) {
+            CAPTURE(line);
+            GcodeRun<double> run;
+            run.run("G5.5 X1 Y0 F600\nX2 Y1\nX3 Y1");
+            CHECK(run.interpreter().has_curve());
+            CHECK(run.items().empty()); // of so few points nothing is known yet
+            const Decimal tolerance = run.interpreter().modal().tolerance_mm;
+            REQUIRE(run.push(line).ok());
+            const bool begins = line == "X4 M8"; // another one
+            CHECK(run.interpreter().has_curve() == (!ends || begins));
+            REQUIRE(run.items().size() >= (ends ? 3U : 0U));
+            if (ends) {
+                CHECK(run.item_text(2) == "feed bezier 3 1 0 degree 3");
+                CHECK(run.items()[2].element.tolerance_mm == Approx(number(tolerance))); // not that of the line
+                CHECK_FALSE(run.items()[0].element.joined);
+                CHECK(run.items()[2].element.joined);
+            } else {
+                CHECK(run.items().empty());
+                run.interpreter().end_curve(); // as where the input pauses
+                REQUIRE(run.push("").error == ProgramError::block_pending);
+            }
+        }
     }
 }
 

@@ -7,8 +7,6 @@
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
-#include <map>
-
 using namespace splinefeed;
 using namespace splinefeed_test;
 

@@ -9,7 +9,6 @@
 #include "host_sim/serve/serve_settings.hpp"
 #include "support/catch.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <random>

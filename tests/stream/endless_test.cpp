@@ -64,10 +64,7 @@ TEMPLATE_TEST_CASE("the first and the ten thousand millionth segment are planned
     if (jerk_limited && std::same_as<TestType, float>) {
         return; // float plans no jerk
     }
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_jerk_mm_s3 = jerk_limited ? 30000.0 : 0.0;
-    }
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), jerk_limited ? 30000.0 : 0.0);
     const Run fresh = run<TestType>(machine, false);
     const Run old = run<TestType>(machine, true);
     CAPTURE(jerk_limited);

@@ -8,7 +8,6 @@
 #include "support/rounds.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 using namespace splinefeed_test;
@@ -104,8 +103,7 @@ TEMPLATE_TEST_CASE("a jerk limit that no sampled motion reaches is kept without 
 TEMPLATE_TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]", double, float) {
     for (const double length : {0.1, 1.0, 10.0, 100.0}) {
         for (const double jerk : {1e4, 3e4, 1e5}) {
-            MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-            machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
+            const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), jerk);
             BezierPath path{cubic_shape(length / 3.0, 0.0, length / 1.5, 0.0, length, 0.0)};
             const Stream stream = stream_of<double, TestType>(path, machine, 256);
             const double segment_s = stream.segments[0].duration_ticks / 8e6;
@@ -121,8 +119,7 @@ TEMPLATE_TEST_CASE("a straight move takes the time of the S-curve", "[stream][je
 // The speed would rise with each part of the path that becomes known, and fall before its end.
 TEMPLATE_TEST_CASE("where the window covers less than the way of braking, the speed is even", "[stream][jerk]",
                    DoubleInDouble, FixedInFloat) {
-    MachineSettings machine = machine_of(2, 300.0, 2000.0, 300.0);
-    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 20000.0;
+    const MachineSettings machine = with_jerk(machine_of(2, 300.0, 2000.0, 300.0), 20000.0);
     BezierPath wave; // of half a millimetre, in pieces as long
     const auto height = [](double x) {
         return 0.5 * std::sin(x / 40.0);
@@ -171,8 +168,7 @@ TEMPLATE_TEST_CASE("a jerk limit that is reached within the last digit of a cell
     // The phases of a straight move are shorter than what Fixed holds of a cell's length.
     // 6 s with sanitizers: 13 s of slow motion, of which the plan has many cells.
     for (const double jerk : {1e6, 1e9}) {
-        MachineSettings machine = machine_of(2, 100.0, 20.0, 100.0);
-        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
+        const MachineSettings machine = with_jerk(machine_of(2, 100.0, 20.0, 100.0), jerk);
         CAPTURE(jerk);
         const BezierPath path{line_shape(2, 1, {60.0, 0.0}), line_shape(2, 1, {0.0, 40.0}),
                               line_shape(2, 1, {-0.3, 0.0})};
@@ -187,8 +183,7 @@ TEMPLATE_TEST_CASE("a bend that begins behind the first of all cells", "[stream]
     using S = typename TestType::S;
     using R = typename TestType::R;
     // From a straight line into a circle: the acceleration jumps, but for a stop.
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 1e5);
     for (const double length : {0.01, 0.03, 0.1, 0.3}) {
         for (const double radius : {0.1, 0.3, 1.0, 3.0}) {
             const double handle = 0.5522847498 * radius;

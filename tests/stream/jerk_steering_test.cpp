@@ -15,11 +15,7 @@ namespace {
 constexpr std::uint64_t seed = 2718;
 
 MachineSettings jerk_machine() {
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_jerk_mm_s3 = 2e4;
-    }
-    return machine;
+    return with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 2e4);
 }
 
 /// The first segment from `at` on that ends at rest.

@@ -11,10 +11,8 @@ TEMPLATE_TEST_CASE("the least feed and the least velocity are kept, also held an
                    double, Fixed) {
     for (const double jerk : {0.0, 1e4}) {
         for (const bool of_axes : {false, true}) {
-            MachineSettings machine = machine_of(2, of_axes ? 0.001 : 100.0, 1000.0, of_axes ? 100.0 : 0.001);
-            for (AxisSettings& axis : machine.axis) {
-                axis.max_jerk_mm_s3 = jerk;
-            }
+            const MachineSettings machine =
+                with_jerk(machine_of(2, of_axes ? 0.001 : 100.0, 1000.0, of_axes ? 100.0 : 0.001), jerk);
             const BezierPath path{line_shape(2, 3, {0.0007, 0.0003}), line_shape(2, 3, {0.0, 0.0006})};
             for (const std::vector<Event>& events : {std::vector<Event>{},
                                                      {{300, Order::hold}, {500, Order::resume}},

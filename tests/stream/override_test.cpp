@@ -46,8 +46,7 @@ TEMPLATE_TEST_CASE("an upper limit of the feed is followed while the machine mov
         if (std::same_as<S, float> && jerk > 0.0) {
             continue;
         }
-        MachineSettings machine = machine_of(1, 200.0, 1000.0, 100.0);
-        machine.axis[0].max_jerk_mm_s3 = jerk;
+        const MachineSettings machine = with_jerk(machine_of(1, 200.0, 1000.0, 100.0), jerk);
         const BezierPath path{line_shape(1, 3, {60.0}), line_shape(1, 3, {40.0})};
         const SteeredRun plain = run_steered<S>(path, machine, 256, {});
         // Ten times the feed is no limit; then 30 mm/s beside an override of 2; then none again; then a stop.
@@ -81,8 +80,7 @@ TEMPLATE_TEST_CASE("an upper limit of the feed is followed while the machine mov
 
 TEMPLATE_TEST_CASE("rapids have an override of their own, also while the machine moves", "[stream][steering]", double,
                    Fixed) {
-    MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
-    machine.axis[0].max_jerk_mm_s3 = GENERATE(0.0, 20000.0);
+    const MachineSettings machine = with_jerk(machine_of(1, 100.0, 1000.0, 100.0), GENERATE(0.0, 20000.0));
     BezierPath path;
     for (const double feed : {20.0, -1.0, 20.0}) { // a feed, a rapid, a feed; each 40 mm
         path.push_back(line_shape(1, 3, {40.0}));

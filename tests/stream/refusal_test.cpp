@@ -24,9 +24,7 @@ static_assert(!TakesLimits<MotionLimits<double>>);
 static_assert(TakesLimits<const MotionLimits<double>&>);
 
 MachineSettings jerk_machine() {
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 5e4;
-    return machine;
+    return with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 5e4);
 }
 
 /// Machines for each of the planners that the scalar has.

@@ -46,8 +46,7 @@ TEMPLATE_TEST_CASE("blended corners are faster than stops", "[stream][jerk]", Do
                    FixedInFloat) {
     using S = typename TestType::S;
     using R = typename TestType::R;
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 30000.0;
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 30000.0);
     for (const double turn : {90.0, 126.0, 170.0}) {
         for (const double tolerance : {0.01, 0.05, 0.1}) {
             const Corners corners = zigzag(8, 10.0, turn, tolerance);

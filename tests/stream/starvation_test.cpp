@@ -119,8 +119,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
     std::size_t shortest = 0;
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(4)); ++round) {
         Random random(seed + round);
-        MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = random.decades(2e4, 1e6);
+        const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), random.decades(2e4, 1e6));
         const BezierPath path = random_path(random, 2, 14, random.decades(3.0, 20.0), 0.0, 0.0);
         // One segment is kept back until the next is known
         const std::size_t released = 8;
@@ -229,8 +228,7 @@ TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move"
     using R = typename TestType::R;
     for (const double length : {0.004, 0.02, 0.1, 0.5}) {
         for (const double before : {0.0, 5.0}) { // to a corner
-            MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-            machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+            const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 1e5);
             const auto limits = limits_for<S, R>(machine).value();
             BezierPath known{line_shape(2, 3, {0.0, length})};
             if (before > 0.0) {
@@ -259,8 +257,7 @@ TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move"
 TEST_CASE("a motion of which the input comes in time rests for no end of it that was known",
           "[stream][starvation][jerk]") {
     for (const double slow : {5.0, 20.0, 50.0}) {
-        MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
-        machine.axis[0].max_jerk_mm_s3 = 2e5;
+        const MachineSettings machine = with_jerk(machine_of(1, 100.0, 1000.0, 100.0), 2e5);
         const auto limits = MotionLimits<double>::make(machine).value();
         BezierPath path(90, line_shape(1, 3, {0.5}));
         for (std::size_t i = 0; i < path.size(); i += 6) {

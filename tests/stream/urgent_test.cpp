@@ -99,10 +99,7 @@ TEMPLATE_TEST_CASE("late planning slows the motion down on the path, within the 
 }
 
 TEST_CASE("a plan with jerk that is made ahead is there when the motion needs it", "[stream][urgent]") {
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_jerk_mm_s3 = 30'000.0;
-    }
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), 30'000.0);
     const auto limits = MotionLimits<double>::make(machine).value();
     Random random(seed);
     const BezierPath path = random_path(random, 2, 60, 10.0, 0.0, 0.0);
@@ -133,10 +130,7 @@ TEMPLATE_TEST_CASE("a change of the steering ends the search of a plan that is m
                    DoubleInDouble, FixedInDouble, FixedInFloat) {
     using S = typename TestType::S;
     using R = typename TestType::R;
-    MachineSettings machine = machine_of(2, 100.0, 1000.0, 3.0);
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_jerk_mm_s3 = 30'000.0;
-    }
+    const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 3.0), 30'000.0);
     const auto limits = limits_for<S, R>(machine).value();
     Random random(seed);
     const BezierPath path = random_path(random, 2, 6, 0.1, 0.0, 0.0);
@@ -192,10 +186,7 @@ TEST_CASE("the old plan and a new one that has come to the second cell do not mi
 // does hardly any.
 TEST_CASE("a call takes no more cells into a plan than its work", "[stream][work]") {
     for (const double jerk : {0.0, 30'000.0}) {
-        MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
-        for (AxisSettings& axis : machine.axis) {
-            axis.max_jerk_mm_s3 = jerk;
-        }
+        const MachineSettings machine = with_jerk(machine_of(2, 100.0, 1000.0, 100.0), jerk);
         const auto limits = MotionLimits<double>::make(machine).value();
         Random random(seed);
         const BezierPath path = random_path(random, 2, 100, 10.0, 0.0, 0.0);

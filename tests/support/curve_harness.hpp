@@ -9,7 +9,6 @@
 
 #include <concepts>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace splinefeed_test {

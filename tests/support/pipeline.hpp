@@ -30,6 +30,14 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
+/// The same with this limit of the jerk of each axis. [mm/s^3] 0: none
+inline MachineSettings with_jerk(MachineSettings machine, double jerk) {
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_jerk_mm_s3 = jerk;
+    }
+    return machine;
+}
+
 /// A profile segment of a planned cell, and the time that it takes.
 template <Scalar S>
 struct PlannedPart {

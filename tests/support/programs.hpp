@@ -7,8 +7,6 @@
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
 
-#include <optional>
-
 namespace splinefeed_test {
 
 struct Point {

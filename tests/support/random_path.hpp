@@ -6,7 +6,6 @@
 #include "splinefeed/number/position.hpp"
 #include "splinefeed/s1_curve/waypoint.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>

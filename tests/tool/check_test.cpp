@@ -12,8 +12,7 @@ using json = nlohmann::json;
 
 TEST_CASE("check tells every problem of a program, each with its line") {
     const Tool tool;
-    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
-                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n");
+    tool.write("m.toml", path_text(20) + axis_text("x", "travel_mm = [0, 50]\n"));
     tool.write("part.ngc", "G1 X10\nG41 D1\nG1 X5 F100\nG0 X-3\nM104 S1\nG1 X60\nX61\n");
     const Call call = tool("check part.ngc -m m.toml");
     CHECK(call.status == 1);
@@ -37,8 +36,7 @@ TEST_CASE("check tells every problem of a program, each with its line") {
 
 TEST_CASE("check goes on behind O words that are wrong, and tells a line that runs often once") {
     const Tool tool;
-    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
-                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 5]\n");
+    tool.write("m.toml", path_text(20) + axis_text("x", "travel_mm = [0, 5]\n"));
     tool.write("part.ngc", "o100 sub\nG999\no1 repeat [9]\nG91 G0 X1\nG998\no1 endrepeat\n");
     const Call call = tool("check part.ngc -m m.toml");
     CAPTURE(call.output);
@@ -70,11 +68,11 @@ TEST_CASE("check takes the time of a real plan, and its parts make the whole") {
 
 TEST_CASE("check knows M66: the time-outs of inputs that are low, and a number that the machine file lacks") {
     const Tool tool;
-    const std::string axis = "[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
-    tool.write("bare.toml", "[path]\nmax_feed_mm_s = 20\n" + axis);
-    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[module]]\nname = \"io\"\naddress = \"modbus-tcp://127.0.0.1\"\n"
-                         "[[input]]\nnumber = 2\nmodule = \"io\"\ninput = 7\n" +
-                             axis);
+    tool.write("bare.toml", path_text(20) + axis_text("x"));
+    tool.write("m.toml", path_text(20) +
+                             "[[module]]\nname = \"io\"\naddress = \"modbus-tcp://127.0.0.1\"\n"
+                             "[[input]]\nnumber = 2\nmodule = \"io\"\ninput = 7\n" +
+                             axis_text("x"));
     tool.write("part.ngc",
                "G1 X10 F600\nM66 P2 L3 Q2.5\nX[20+5*#5399]\nM66 P2 L4 Q2\nM66 P4 L1 Q1\nM66 P2 L0\nM66 P2 L2 Q0.5\n");
     const Call bare = tool("check part.ngc -m bare.toml --json");
@@ -110,10 +108,7 @@ TEST_CASE("The advice of a long program is that of its first moves, and planning
 
 TEST_CASE("A path is planned without a look at it where its moves stay away from the ends of travel, and only there") {
     const Tool tool;
-    tool.write("m.toml",
-               "[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
-               "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n[[axis]]\nname = \"y\"\nmax_velocity_mm_s = 100\n"
-               "max_acceleration_mm_s2 = 1000\n");
+    tool.write("m.toml", path_text(100) + axis_text("x", "travel_mm = [0, 50]\n") + axis_text("y"));
     for (const char* const x : {"10", "49.9999", "50"}) {
         CAPTURE(x);
         tool.write("part.ngc", std::string("F900 G1 X") + x + "\nY1\nX5\n");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+using splinefeed::test::axis_text;
 using splinefeed::test::Call;
 using splinefeed::test::contains;
 using splinefeed::test::Tool;
@@ -14,9 +15,7 @@ using splinefeed::test::Tool;
 namespace {
 
 const std::string program = "0,0,0\n1,1,0\n2,0,0\n";
-const std::string axis = "max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n";
-const std::string machine = "[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = \"x\"\n" + axis +
-                            "[[axis]]\nname = \"y\"\n" + axis + "[[axis]]\nname = \"z\"\n" + axis;
+const std::string machine = splinefeed::test::path_text(100) + axis_text("x") + axis_text("y") + axis_text("z");
 const std::string events = "0.01,override,0.5\n";
 const std::string inputs = "p.csv m.toml e.csv";
 

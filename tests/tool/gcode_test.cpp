@@ -99,8 +99,7 @@ TEST_CASE("The power of a laser changes while it moves, in the dialects of engra
     }
     CHECK(seconds(tool, changing, "--dialect grbl") == Approx(seconds(tool, steady, "--dialect grbl")).margin(1e-9));
     CHECK(seconds(tool, changing, "--dialect linuxcnc") > seconds(tool, steady, "--dialect linuxcnc") + 0.1);
-    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n[[axis]]\nname = "
-                               "'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
+    tool.write("spindle.toml", path_text(100) + "[spindle]\nmax_rpm = 20000\nramp_s = 4\n" + axis_text("x"));
     CHECK(seconds(tool, "M3 S100\n" + changing, "--dialect grbl -m spindle.toml") >
           seconds(tool, "M3 S100\n" + steady, "--dialect grbl -m spindle.toml") + 0.1);
 }
@@ -220,8 +219,7 @@ TEST_CASE("What is wrong is said with line and column, before anything moves") {
     tool.write("part.csv", "0,0\n1,1\n");
     CHECK(tool("run part.csv --dialect grbl").error.find("splinefeed: --dialect: only a program in G-code has it") ==
           0);
-    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
-                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n");
+    tool.write("m.toml", path_text(20) + axis_text("x", "travel_mm = [0, 50]\n"));
     CHECK(error_of(tool, "G0 X10\nG0 X51\n", "-m m.toml").find("part.ngc:2: ") == 0);
 }
 
@@ -280,9 +278,8 @@ TEST_CASE("Wrong O words are refused with their line, and a program that never e
 
 TEST_CASE("The simulated spindle takes its time at standstill, and has the speeds of the machine file") {
     const Tool tool;
-    const std::string axes = "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
-    tool.write("plain.toml", "[path]\nmax_feed_mm_s = 100\n" + axes);
-    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n" + axes);
+    tool.write("plain.toml", path_text(100) + axis_text("x"));
+    tool.write("spindle.toml", path_text(100) + "[spindle]\nmax_rpm = 20000\nramp_s = 4\n" + axis_text("x"));
     const std::string program = "G1 X10 F3000\nS10000 M3\nX20\nM5\nX30\nM2\n";
     const double waiting_s = seconds(tool, program, "-m spindle.toml");
     CHECK(waiting_s == Approx(seconds(tool, "G61.1\n" + program, "-m plain.toml") + 4.0).margin(0.01));
@@ -349,8 +346,7 @@ TEST_CASE("A dwell behind a message takes its time") {
 
 TEST_CASE("A tool change stops the spindle, as in LinuxCNC") {
     const Tool tool;
-    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n[[axis]]\nname = "
-                               "'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
+    tool.write("spindle.toml", path_text(100) + "[spindle]\nmax_rpm = 20000\nramp_s = 4\n" + axis_text("x"));
     const double on_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nM0\nX20\nM2\n", "-m spindle.toml");
     const double changed_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nT2 M6\nX20\nM2\n", "-m spindle.toml");
     CHECK(changed_s == Approx(on_s + 2.0).margin(0.01));

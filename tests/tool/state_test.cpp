@@ -6,7 +6,6 @@
 #include "tool.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 using namespace splinefeed::test;
@@ -105,8 +104,7 @@ TEST_CASE("A place that the state does not know is asked for, and not taken for 
 
 TEST_CASE("A machine that homes first stands at 0, or where --position says, and no longer where the state has it") {
     const Tool tool;
-    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
-                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 20]\n");
+    tool.write("m.toml", path_text(20) + axis_text("x", "travel_mm = [0, 20]\n"));
     tool.write("far.ngc", "G0 X15\nM2\n");
     tool.write("on.ngc", "G91 G0 X10\nM2\n");
     REQUIRE(tool("run far.ngc -m m.toml --state s.json --quiet").status == 0);

@@ -3,8 +3,6 @@
 #pragma once
 
 #include "support/places.hpp"
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +73,15 @@ public:
 private:
     std::filesystem::path folder_;
 };
+
+inline std::string path_text(int max_feed_mm_s) {
+    return "[path]\nmax_feed_mm_s = " + std::to_string(max_feed_mm_s) + "\n";
+}
+
+/// Of a machine file, for 100 mm/s and 1000 mm/s^2. @param more  its other lines
+inline std::string axis_text(const std::string& name, const std::string& more = "") {
+    return "[[axis]]\nname = '" + name + "'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n" + more;
+}
 
 inline bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

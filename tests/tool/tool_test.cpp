@@ -7,21 +7,15 @@
 #include "support/places.hpp"
 
 #include <algorithm>
-#include <vector>
 
-using splinefeed::test::Call;
-using splinefeed::test::contains;
-using splinefeed::test::Tool;
+using namespace splinefeed::test;
 
 namespace {
 
 const std::string square = "x,y,z\n0,0,0\n100,0,0\n100,100,0\n0,100,0\n0,0,0\n";
+const std::string steps = "steps_per_mm = 320\n";
 const std::string machine =
-    "[path]\nmax_feed_mm_s = 100\n"
-    "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n"
-    "travel_mm = [0, 100]\n"
-    "[[axis]]\nname = 'y'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n"
-    "[[axis]]\nname = 'z'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n";
+    path_text(100) + axis_text("x", steps + "travel_mm = [0, 100]\n") + axis_text("y", steps) + axis_text("z", steps);
 
 std::size_t lines(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -113,13 +107,11 @@ TEST_CASE("A B-spline of control points runs, open and closed, and has no waypoi
     CHECK(contains(tool("run square.csv --curve g2 --summary json").output, "\"waypoint_error_mm\": 0.0"));
     // The hull of all control points is beyond the travel, the curve is not; then it is, and nothing moves.
     tool.write("hill.csv", "x,y,z\n0,0,0\n30,0,0\n60,140,0\n90,0,0\n120,0,0\n");
-    const std::string y_travel = "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
-                                 "steps_per_mm = 320\n[[axis]]\nname = 'y'\nmax_velocity_mm_s = 100\n"
-                                 "max_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\ntravel_mm = [0, ";
-    const std::string z = "]\n[[axis]]\nname = 'z'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
-                          "steps_per_mm = 320\n";
-    tool.write("high.toml", "[path]\nmax_feed_mm_s = 100\n" + y_travel + "70.001" + z);
-    tool.write("low.toml", "[path]\nmax_feed_mm_s = 100\n" + y_travel + "69.99" + z);
+    for (const auto& [file, top] : {std::pair{"high.toml", "70.001"}, std::pair{"low.toml", "69.99"}}) {
+        const std::string travel = std::string("travel_mm = [0, ") + top + "]\n";
+        tool.write(file,
+                   path_text(100) + axis_text("x", steps) + axis_text("y", steps + travel) + axis_text("z", steps));
+    }
     CHECK(tool("run hill.csv -m high.toml --curve bspline").status == 0); // its top is (0 + 2 * 140 + 0) / 4
     const Call refused = tool("run hill.csv -m low.toml --curve bspline --trace t.csv");
     CHECK(refused.status == 2);

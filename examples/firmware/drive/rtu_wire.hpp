@@ -6,7 +6,6 @@
 #include "drive/rtu_frame.hpp"
 #include "serial.hpp"
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>

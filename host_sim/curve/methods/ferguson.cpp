@@ -5,7 +5,6 @@
 #include "splinefeed/splines/ferguson.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/program_spindle.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {

@@ -6,8 +6,6 @@
 #include "splinefeed/hal/stop_sequence.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
 
-#include <array>
-#include <cmath>
 #include <string>
 
 namespace splinefeed::hal::gpio {

@@ -4,8 +4,6 @@
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_frames.hpp"
 
-#include <optional>
-
 namespace splinefeed::hal::modbus {
 
 /// Use: begin(command); until finished(): if (due_us() <= now) { write next(); on_sent(now); }.

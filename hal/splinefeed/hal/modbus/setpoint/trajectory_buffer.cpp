@@ -3,7 +3,6 @@
 
 #include "splinefeed/base/units.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace splinefeed::hal::modbus {
