@@ -54,7 +54,7 @@ TEST_CASE("travel and its end zones") {
     AxisSettings settings = settings_of(1000.0);
     settings.travel_end_zone_mm = 5.0;
     settings.travel_end_velocity_mm_s = 20.0;
-    const AxisAllowance axis(settings, Travel{-10.0, 90.0});
+    const AxisAllowance axis(settings, splinefeed::host::Travel{-10.0, 90.0});
     CHECK(axis.lowest == Approx(-10.0 - 1e-4).epsilon(1e-8));
     CHECK(axis.highest == Approx(90.0 + 1e-4).epsilon(1e-8));
     CHECK(axis.open_low == -5.0);

@@ -44,7 +44,7 @@ TEST_CASE("Curve options are read") {
     CHECK(choice.start_tangent->components == 2);
     CHECK(choice.start_tangent->value[1] == -2.5);
     CHECK(first_option(arguments) == "--parameterization");
-    CHECK(first_option({}).empty());
+    CHECK(first_option(CurveArguments{}).empty());
 }
 
 TEST_CASE("A tolerance goes with polylines") {

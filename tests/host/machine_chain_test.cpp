@@ -118,7 +118,7 @@ TEST_CASE("the first of several violations is the one reported") {
 TEST_CASE("without enforcement the use of the limits is measured and nothing stops") {
     MachineDescription description = machine_of({"x"});
     description.settings.max_feed_mm_s = 50.0;
-    description.travel[0] = Travel{0.0, 1.0};
+    description.travel[0] = splinefeed::host::Travel{0.0, 1.0};
     SimulatedMachine machine(description, 1, {.enforce = false});
     CHECK(run(machine, there(150.0, 3000.0)) == PortPhase::idle);
     CHECK_FALSE(machine.fault());
