@@ -26,7 +26,7 @@ PlanePoint plane_point(const AxisPoint& point, const std::array<unsigned, 3>& ax
 std::array<unsigned, 3> BlockInterpreter::plane_axes(Plane plane) const noexcept {
     std::array<unsigned, 3> axes{};
     for (unsigned k = 0; k < 3; ++k) {
-        axes[k] = letters_.place(letters_of(plane).axes[k]);
+        axes[k] = static_cast<unsigned>(letters_.index(letters_of(plane).axes[k])); // not used where there is none
     }
     return axes;
 }
