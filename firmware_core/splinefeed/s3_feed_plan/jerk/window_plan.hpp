@@ -90,6 +90,7 @@ private:
         R b = largest<R>();
         R ahead_mm = R(1);
         R growth{}; ///< of b by the next leg that does not reach it
+        [[nodiscard]] bool binds() const noexcept { return growth > R(0); }
         /// With another look-ahead: as the acceleration or the jerk would have it, whichever is more.
         [[nodiscard]] R by(R mm) const noexcept {
             const R ratio = mm / ahead_mm;
