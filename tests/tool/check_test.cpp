@@ -49,6 +49,17 @@ TEST_CASE("check goes on behind O words that are wrong, and tells a line that ru
     }
 }
 
+TEST_CASE("check ends where the program ends itself, and tells its text") {
+    const Tool tool;
+    tool.write("part.ngc", "G1 X5 F600\no1 if [#5070 EQ 0]\n(ABORT,no contact)\no1 endif\nG1 X50\nG999\n");
+    const Call call = tool("check part.ngc");
+    CHECK(call.status == 1);
+    CHECK(call.output.find("part.ngc:3:8: the program ends itself by (ABORT,no contact)\n\n1 problem\n") == 0);
+    CHECK(json::parse(tool("check part.ngc --json").output)["feed_box"]["x"][1] == 5.0);
+    tool.write("part.ngc", "G1 X5 F600\no1 if [0]\n(ABORT,no contact)\no1 endif\nG1 X50\n");
+    CHECK(tool("check part.ngc").status == 0);
+}
+
 TEST_CASE("check takes the time of a real plan, and its parts make the whole") {
     const Tool tool;
     const std::string program = "'" + source_folder() + "/examples/bracket.ngc'";

@@ -290,6 +290,12 @@ void Controller::refuse_block(const BlockStatus& status, bool jog) noexcept {
     }
     answers_.put(']').end_line();
     refuse_behind(line_error_of(status.error));
+    if (status.error == ProgramError::program_aborted) { // its text names the fault
+        refused_lines_ = all_lines;
+        TextCursor text(line_.view());
+        text.go_to(status.column - 1U);
+        say(text.part(text.at(), text.find(')', text.at())));
+    }
 }
 
 // Lines that had come before are refused, too, and what moves is held: the sender decides.

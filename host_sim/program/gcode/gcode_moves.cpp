@@ -60,7 +60,7 @@ public:
         }
         if (!pending_) {
             const bool enough = settings_->most_moves > 0 && history_.moves() >= settings_->most_moves;
-            if (interpreter_.has_ended() || enough) {
+            if (interpreter_.has_ended() || aborted_ || enough) {
                 return false;
             }
             switch (cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_)) {
@@ -88,7 +88,7 @@ public:
             std::this_thread::sleep_for(patience);
             return false;
         }
-        return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
+        return pending_ || flow_.in_memory() || interpreter_.has_ended() || aborted_ || lines_->wait(patience);
     }
 
     [[nodiscard]] bool awaits_answer() const noexcept override { return asked_.has_value(); }
@@ -150,10 +150,20 @@ private:
         }
         const std::string_view text = without_long_comment(line_.text, BlockInterpreter::longest_line);
         const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
-        if (!status.ok()) {
+        if (status.error == ProgramError::program_aborted) {
+            aborted_ = true;
+            report({file_, line_.number, std::uint64_t{status.column},
+                    fmt::format("the program ends itself by (ABORT,{})", comment_from(text, status.column))});
+        } else if (!status.ok()) {
             report_block(status, text);
             interpreter_.obey_refused();
         }
+    }
+
+    /// The text of a comment from a column on.
+    [[nodiscard]] static std::string_view comment_from(std::string_view text, std::uint16_t column) noexcept {
+        const std::string_view rest = text.substr(std::min<std::size_t>(column - 1U, text.size()));
+        return rest.substr(0, rest.find(')'));
     }
 
     void end_input() {
@@ -364,6 +374,7 @@ private:
     ProgramSpindle spindle_;
     bool pending_ = false; // the block has more items
     bool is_last_ = false; // there are no more lines
+    bool aborted_ = false; // the program has ended itself as failed
     Cut cut_ = Cut::no;
     std::uint64_t last_line_ = 0;    // the number of the newest one
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered

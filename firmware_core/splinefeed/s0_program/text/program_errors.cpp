@@ -21,6 +21,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::number_has_exponent, "a number has no exponent; write it out: 0.0002 for 2e-4, and 0 for 2e-16"},
     {ProgramError::comment_not_closed, "the comment has no ')'"},
     {ProgramError::comment_nested, "a comment cannot hold a '('"},
+    {ProgramError::program_aborted, "the program ends itself by (ABORT, text), and nothing behind it runs"},
     {ProgramError::word_repeated, "the letter stands twice; a block has each letter once, other than G and M"},
     {ProgramError::modal_group_conflict, "two words of one group exclude each other; write two blocks"},
     {ProgramError::g_code_unknown, "there is no such G word"},

@@ -21,6 +21,7 @@ enum class ProgramError : std::uint8_t {
     number_has_exponent,
     comment_not_closed,
     comment_nested,
+    program_aborted,
     word_repeated,
     modal_group_conflict,
     g_code_unknown,

@@ -3,16 +3,13 @@
 #pragma once
 
 #include "splinefeed/s0_program/dialects/code_table.hpp"
-#include "splinefeed/s0_program/text/text_part.hpp"
 #include "splinefeed/s0_program/words/block_status.hpp"
+#include "splinefeed/s0_program/words/program_comment.hpp"
 
 #include <array>
 #include <string_view>
 
 namespace splinefeed {
-
-/// What a comment asks for.
-enum class CommentKind : std::uint8_t { none, message, print, debug };
 
 /// Words by letter, G and M words by group. Letters are 'a' to 'z', and '@' and '^'.
 class Block {

@@ -3,6 +3,7 @@
 #include "splinefeed/s0_program/text/decimal_text.hpp"
 #include "splinefeed/s0_program/words/axis_letters.hpp"
 #include "splinefeed/s0_program/words/modal_state.hpp"
+#include "splinefeed/s0_program/words/program_comment.hpp"
 
 #include <algorithm>
 
@@ -131,7 +132,12 @@ ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& 
 ProgramStatus BlockReader::read_part(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     const char c = text.peek();
     if (c == '(') {
-        return read_comment(text, out);
+        ProgramComment comment;
+        const ProgramStatus status = read_comment(text, rules_->open_comments, comment);
+        if (comment.kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
+            out.set_comment(comment.kind, comment.text);
+        }
+        return status;
     }
     if (c == '#') {
         return evaluator_ != nullptr ? evaluator_->assignment(text, control)
@@ -334,36 +340,6 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
         return ProgramError::modal_group_conflict;
     }
     out.set_code(info.group, code, column);
-    return {};
-}
-
-ProgramStatus BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
-    const std::string_view line = text.text();
-    const std::size_t begin = text.at() + 1;
-    std::size_t end = begin;
-    while (end < line.size() && line[end] != ')') {
-        if (line[end] == '(' && !rules_->open_comments) {
-            text.go_to(end);
-            return ProgramError::comment_nested;
-        }
-        ++end;
-    }
-    if (end == line.size() && !rules_->open_comments) {
-        return ProgramError::comment_not_closed;
-    }
-    TextCursor inside(text.part(begin, end));
-    CommentKind kind = CommentKind::none;
-    if (inside.take("msg,"sv)) {
-        kind = CommentKind::message;
-    } else if (inside.take("print,"sv)) {
-        kind = CommentKind::print;
-    } else if (inside.take("debug,"sv)) {
-        kind = CommentKind::debug;
-    }
-    if (kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
-        out.set_comment(kind, TextCursor::place(begin + inside.at(), end));
-    }
-    text.go_to(end + 1);
     return {};
 }
 
