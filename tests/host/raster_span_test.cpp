@@ -41,8 +41,8 @@ TEST_CASE("raster: the way back is above every peak, however narrow", "[surface]
             const ToolSurface tool(surface, options);
             double highest = -std::numeric_limits<double>::infinity();
             double way_back = highest;
-            for (const CellInterval& stretch : raster(tool)) {
-                if (stretch.kind == CellInterval::Kind::straight) {
+            for (const splinefeed::host::CellInterval& stretch : raster(tool)) {
+                if (stretch.kind == splinefeed::host::CellInterval::Kind::straight) {
                     way_back = std::max(way_back, stretch.end[2]);
                     continue;
                 }

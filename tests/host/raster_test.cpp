@@ -160,9 +160,9 @@ TEST_CASE("raster: the ball touches the surface, its tip is a radius lower", "[s
     tip.tip = true;
     const ToolSurface tool(surface, options);
     const ToolSurface lower(surface, tip);
-    for (const CellInterval& stretch : raster(tool)) {
+    for (const splinefeed::host::CellInterval& stretch : raster(tool)) {
         for (const double t : stretch_parameters(tool, stretch)) {
-            const bool along = stretch.kind == CellInterval::Kind::along;
+            const bool along = stretch.kind == splinefeed::host::CellInterval::Kind::along;
             const double a = along ? t : stretch.constant;
             const double b = along ? stretch.constant : t;
             const Point<double> centre = tool.tool(a, b);
@@ -197,8 +197,8 @@ TEST_CASE("raster: waypoints, pieces and patterns", "[surface]") {
     // Without a ball the pieces are the surface's own lines: equal to it everywhere, and they join.
     const auto exact = pieces(tool, path);
     std::size_t n = 0;
-    for (const CellInterval& stretch : path) {
-        if (stretch.kind != CellInterval::Kind::along) {
+    for (const splinefeed::host::CellInterval& stretch : path) {
+        if (stretch.kind != splinefeed::host::CellInterval::Kind::along) {
             while (std::fabs(exact[n].control[1][0] - exact[n].control[1][3]) > 1e-9) { // along y until the next line
                 ++n;
             }
