@@ -83,9 +83,9 @@ void add_gcode_options(CLI::App& app, Job& job) {
     app.add_option("--dialect", gcode.dialect,
                    "linuxcnc, grbl, marlin, fanuc, klipper: whose words they are (default linuxcnc); auto: as the "
                    "first 200 lines say");
-    app.add_option(
-        "--ignore", gcode.ignore,
-        "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all that the dialect does not have");
+    app.add_option("--ignore", gcode.ignore,
+                   "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all of the machine's that "
+                   "the dialect does not have");
     app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each");
     app.add_flag("--increments", gcode.increments,
                  "fanuc: lengths without a decimal point count 0.001 mm, in inches 0.0001");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/line_filter.hpp"
 
+#include "host_sim/program/kept_line.hpp"
+
 #include "splinefeed/s0_program/dialects/dialect_rules.hpp"
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
@@ -86,7 +88,7 @@ bool is_still_macro(std::string_view name) noexcept {
 
 std::string_view left_out_line(std::string_view line, const GcodeSettings& settings) noexcept {
     const std::string_view word = first_word(line);
-    if (word.empty()) {
+    if (word.empty() || kept_line(line)) {
         return {};
     }
     const std::string_view name = macro_name(line);

@@ -24,7 +24,7 @@ namespace splinefeed::host {
 /// @param pattern  in capitals; a * at its end is any rest
 [[nodiscard]] bool fits(std::string_view pattern, std::string_view word) noexcept;
 
-/// What of the line tells that it is left out: its first word. Empty: it is read.
+/// What of the line tells that it is left out: its first word. Empty: it is read, or is a kept_line().
 [[nodiscard]] std::string_view left_out_line(std::string_view line, const GcodeSettings& settings) noexcept;
 
 } // namespace splinefeed::host

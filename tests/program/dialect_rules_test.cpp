@@ -245,7 +245,7 @@ TEST_CASE("an exponent is no word", "[program][dialects]") {
 
 TEST_CASE("words that are left out take their axis words along", "[program][dialects]") {
     Words words;
-    const IgnoredWord ignored[] = {{'G', 280}, {'G', 430}, {'G', 810}};
+    const IgnoredWord ignored[] = {{'G', 280}, {'G', 430}, {'A', IgnoredWord::any}};
     ProgramSettings settings = in(Dialect::linuxcnc);
     settings.ignored = ignored;
     settings.ignored_count = 3;
@@ -254,8 +254,79 @@ TEST_CASE("words that are left out take their axis words along", "[program][dial
     GcodeRun<double> run(settings);
     CHECK(run.text("G0 X5\nG91 G28 Z0\nG90 X6") == "rapid 5 0 0\nrapid 6 0 0"); // Z0 is not a move of G0
     CHECK(run.text("G43 H7 Z2") == "rapid 6 0 2");                              // Z is not G43's
-    CHECK(run.text("G234 X9\nM777 P1") == "");
-    CHECK(words.all == "G28;G43;G234;M777;");
-    run.run("G81 X1 Z-1 R1 F60");
-    CHECK(run.push("X2").error == ProgramError::axis_word_unused); // a hole, not a rapid
+    CHECK(run.text("M777 P1 X9") == "rapid 9 0 2");                             // X is of no M word
+    CHECK(run.text("G30 A0\nG92 A5") == "");                                    // no other axis is meant
+    CHECK(words.all == "G28;G43;M777;A0;A5;");
+}
+
+TEST_CASE("what changes the path, its place or the order of blocks is not left out", "[program][dialects]") {
+    struct Case {
+        Dialect dialect;
+        IgnoredWord named;
+        const char* line;
+        ProgramError error;
+    };
+    constexpr Case cases[] = {
+        {Dialect::linuxcnc, {'G', 810}, "G81 X1 Z-1 R1 F60", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 10}, "G1 X1 F60", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 910}, "G91", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 540}, "G54", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 920}, "G92 X1", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 610}, "G61", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'M', 20}, "M2", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'M', 980}, "M98 P1", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'M', 720}, "M72", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'X', IgnoredWord::any}, "G0 X1", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'F', IgnoredWord::any}, "F60", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'R', IgnoredWord::any}, "G2 X1 R5 F60", ProgramError::ignored_word_counts},
+        {Dialect::linuxcnc, {'G', 680}, "G68 X0 Y0 R90", ProgramError::coordinates_unsupported},
+        {Dialect::linuxcnc, {'G', 2340}, "G234 X9", ProgramError::g_code_unknown},
+        {Dialect::fanuc, {'W', IgnoredWord::any}, "G0 W1", ProgramError::ignored_word_counts}, // a step of Z
+        {Dialect::fanuc, {'G', 160}, "G16", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 510}, "G51 X0 Y0 P2", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 511}, "G51.1 X0", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 682}, "G68.2 X0 Y0 Z0 I1 J2 K3", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 541}, "G54.1 P3", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 1540}, "G154 P3", ProgramError::coordinates_unsupported},
+        {Dialect::fanuc, {'G', 650}, "G65 P9010 A1", ProgramError::macro_unsupported},
+        {Dialect::fanuc, {'M', 970}, "M97 P100", ProgramError::macro_unsupported},
+        {Dialect::fanuc, {'M', 1980}, "M198 P100", ProgramError::macro_unsupported},
+        {Dialect::fanuc, {'G', 120}, "G12 I5 F60", ProgramError::pocket_unsupported},
+        {Dialect::grbl, {'G', 520}, "G52 X1", ProgramError::not_in_dialect},
+        {Dialect::marlin, {'M', 8080}, "M808 L3", ProgramError::printer_flow_unsupported},
+        {Dialect::marlin, {'M', 8100}, "M810 G1 X5", ProgramError::printer_flow_unsupported},
+        {Dialect::marlin, {'M', 920}, "M92 X160", ProgramError::printer_move_unsupported},
+        {Dialect::marlin, {'M', 2060}, "M206 X5", ProgramError::printer_move_unsupported},
+        {Dialect::klipper, {'G', 200}, "G20", ProgramError::not_in_dialect},
+    };
+    for (const Case& test : cases) {
+        for (const bool by_name : {true, false}) {
+            if (!by_name && test.error == ProgramError::ignored_word_counts) {
+                continue; // it is understood
+            }
+            ProgramSettings settings = in(test.dialect);
+            settings.ignored = &test.named;
+            settings.ignored_count = by_name ? 1 : 0;
+            settings.ignores_unknown = !by_name;
+            GcodeRun<double> run(settings);
+            CAPTURE(test.line, by_name);
+            CHECK(run.push(test.line).error == test.error);
+        }
+    }
+}
+
+TEST_CASE("words of the machine are left out by name, by letter and as unknown", "[program][dialects]") {
+    const IgnoredWord all_m{'M', IgnoredWord::any};
+    ProgramSettings settings = in(Dialect::fanuc);
+    settings.ignored = &all_m;
+    settings.ignored_count = 1;
+    GcodeRun<double> by_letter(settings);
+    CHECK(by_letter.text("M3 S5 M8\nM31\nM72\nG0 X1 M6").find("rapid 1 0 0") != std::string::npos);
+    CHECK(by_letter.push("M2").ok()); // the letter names those that may be left out, and the end is none of them
+    CHECK(by_letter.interpreter().has_ended());
+    settings.ignored_count = 0;
+    settings.ignores_unknown = true;
+    GcodeRun<double> unknown(settings);
+    CHECK(unknown.text("M31\nM33\nM72\nM150\nG0 X1") == "rapid 1 0 0");
+    CHECK(error(Dialect::fanuc, "", "M72") == ProgramError::m_code_unknown);
 }

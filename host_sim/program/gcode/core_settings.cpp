@@ -47,12 +47,11 @@ std::string_view without_long_comment(std::string_view text, std::size_t longest
     return text;
 }
 
-// Words that --ignore takes lead nowhere.
+// Words that --ignore names lead nowhere: the interpreter refuses them.
 FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant) {
     const auto ignores = [&](std::int16_t first, std::int16_t last) {
         return std::ranges::any_of(settings.ignored, [&](const IgnoredWord& word) {
-            return word.letter == 'M' &&
-                   (word.tenths == IgnoredWord::any || (word.tenths >= first && word.tenths <= last));
+            return word.letter == 'M' && word.tenths >= first && word.tenths <= last;
         });
     };
     const bool linuxcnc = settings.dialect == Dialect::linuxcnc;

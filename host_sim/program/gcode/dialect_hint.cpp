@@ -1,25 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/dialect_hint.hpp"
 
+#include "host_sim/program/kept_line.hpp"
+
 #include "splinefeed/s0_program/dialects/code_table.hpp"
 #include "splinefeed/s0_program/dialects/dialect_rules.hpp"
 #include "splinefeed/s0_program/text/decimal.hpp"
 #include "splinefeed/s0_program/text/decimal_text.hpp"
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace splinefeed::host {
 
 namespace {
 
-bool is_printer_word(std::string_view text) {
+/// A G or M word that text begins with.
+struct CodeWord {
+    char letter = 'm';
+    std::int32_t tenths = 0;
+
+    [[nodiscard]] CodeInfo in(Dialect dialect) const noexcept {
+        return letter == 'g' ? find_g_code(tenths, dialect) : find_m_code(tenths / 10, dialect);
+    }
+};
+
+std::optional<CodeWord> code_of(std::string_view text) {
+    constexpr std::int64_t tenth = Decimal::one / 10;
+    constexpr std::int64_t most = 10'000;
     TextCursor cursor(text);
+    const char letter = cursor.peek();
     Decimal number;
-    if (!cursor.take('m') || !read_decimal(cursor, number).ok() || number.raw % Decimal::one != 0) {
+    cursor.step();
+    if ((letter != 'g' && letter != 'm') || !read_decimal(cursor, number).ok() || number.raw % tenth != 0 ||
+        number.raw < 0 || number.raw / Decimal::one > most) {
+        return std::nullopt;
+    }
+    return CodeWord{letter, static_cast<std::int32_t>(number.raw / tenth)};
+}
+
+bool is_printer_word(std::string_view text) {
+    const std::optional<CodeWord> code = code_of(text);
+    if (!code || code->letter != 'm' || code->tenths % 10 != 0) {
         return false;
     }
-    const CodeInfo info = find_m_code(static_cast<std::int32_t>(number.raw / Decimal::one), Dialect::marlin);
+    const CodeInfo info = code->in(Dialect::marlin);
     return info.group == CodeGroup::printer && info.refusal == ProgramError::none;
 }
 
@@ -42,12 +70,26 @@ constexpr std::pair<ProgramError, std::string_view> helping_options[] = {
     {ProgramError::not_in_dialect, "; --dialect linuxcnc does"},
     {ProgramError::axis_missing, "; --ignore leaves the letter out"},
     {ProgramError::tool_table_missing, "; --tools gives one"},
+    {ProgramError::m_code_unknown, "; --ignore leaves such a word out"},
     {ProgramError::user_code_unsupported, "; --ignore leaves such a word out"},
     {ProgramError::bed_levelling_unsupported, "; --ignore G29 leaves it out"},
     {ProgramError::firmware_retraction_unsupported, "; --ignore G10,G11 leaves it out"},
     {ProgramError::printer_move_unsupported, "; --ignore leaves the word out"},
     {ProgramError::grbl_command_unsupported, "; --ignore $* leaves all of them out"},
 };
+
+/// Why --ignore does not take the word, where it would be advised or was tried. Empty: it does.
+std::string kept_advice(std::string_view text, ProgramError error, const GcodeSettings& settings) {
+    const std::optional<CodeWord> code = code_of(text);
+    const CodeEffect effect = code ? code->in(settings.dialect).effect : CodeEffect::machine;
+    const bool tried = settings.ignores_unknown || std::ranges::any_of(settings.ignored, [&](const IgnoredWord& word) {
+                           return code && word.letter == upper_case(code->letter) && word.tenths == code->tenths;
+                       });
+    const bool advised = option_advice(error).find("--ignore") != std::string_view::npos;
+    return may_be_left_out(effect) || error == ProgramError::ignored_word_counts || !(tried || advised)
+               ? std::string()
+               : fmt::format("; {}, so that no --ignore leaves it out", effect_text(effect));
+}
 
 } // namespace
 
@@ -97,6 +139,14 @@ std::string_view option_advice(ProgramError error) {
         }
     }
     return {};
+}
+
+std::string refusal_sentence(std::string_view text, ProgramError error, const GcodeSettings& settings) {
+    if (const std::string_view hint = dialect_hint(text, error, settings.dialect); !hint.empty()) {
+        return std::string(hint);
+    }
+    const std::string kept = kept_advice(text, error, settings);
+    return std::string(describe(error)).append(kept.empty() ? option_advice(error) : kept);
 }
 
 } // namespace splinefeed::host

@@ -10,6 +10,7 @@
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_items.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
+#include "host_sim/program/kept_line.hpp"
 #include "host_sim/program/left_out_list.hpp"
 #include "host_sim/program/line_filter.hpp"
 #include "host_sim/program/problem_list.hpp"
@@ -183,10 +184,8 @@ private:
     void report_block(const BlockStatus& status, std::string_view text) {
         const std::string_view rest =
             text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
-        const std::string_view hint =
-            cut_ == Cut::read ? cut_line : dialect_hint(rest, status.error, settings_->dialect);
         const std::string sentence =
-            hint.empty() ? std::string(describe(status.error)).append(option_advice(status.error)) : std::string(hint);
+            cut_ == Cut::read ? std::string(cut_line) : refusal_sentence(rest, status.error, *settings_);
         const bool says_dialect = sentence.find("--dialect") != std::string::npos;
         const std::string place = in_the_line(status);
         // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
@@ -199,6 +198,10 @@ private:
 
     // A line that is no G-code, or that the user wants to be left out. Macros that nobody speaks of are named.
     [[nodiscard]] bool is_left_out() {
+        if (const std::optional<KeptLine> kept = kept_line(line_.text)) {
+            report({file_, line_.number, splinefeed::host::refusal(*kept)}, kept->word);
+            return true;
+        }
         const std::string_view word = left_out_line(line_.text, *settings_);
         const std::string_view macro = macro_name(line_.text);
         if (!word.empty() && settings_->left_out != nullptr) {

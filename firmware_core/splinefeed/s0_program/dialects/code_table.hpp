@@ -37,11 +37,25 @@ enum class CodeGroup : std::uint8_t {
 };
 inline constexpr unsigned code_groups = static_cast<unsigned>(CodeGroup::none);
 
+/// What a word changes. Only what leaves the path as it is may be left out of a program.
+enum class CodeEffect : std::uint8_t {
+    motion,      ///< the path, or how it is travelled
+    coordinates, ///< where the path lies
+    flow,        ///< the order of the blocks, and the end
+    machine,     ///< spindle, coolant, heaters, displays; waits; the set-up: reference moves, tools of the table
+};
+[[nodiscard]] constexpr bool may_be_left_out(CodeEffect effect) noexcept {
+    return effect == CodeEffect::machine;
+}
+
 struct CodeInfo {
     CodeGroup group = CodeGroup::none;
     ProgramError refusal = ProgramError::none; ///< why the word is not followed
+    CodeEffect effect = CodeEffect::motion;
 };
 
+/// A word of no table has no group. Such a G word counts as motion, which it may be, and such an M word as the
+/// machine's.
 /// @param tenths  ten times the number: 382 for G38.2
 [[nodiscard]] CodeInfo find_g_code(std::int32_t tenths, Dialect dialect) noexcept;
 [[nodiscard]] CodeInfo find_m_code(std::int32_t number, Dialect dialect) noexcept;

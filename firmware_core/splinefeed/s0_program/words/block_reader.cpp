@@ -14,6 +14,7 @@ using namespace std::string_view_literals; // without strlen
 namespace {
 
 constexpr std::uint32_t coordinate_bits = Block::bits("xyzabcuvwijkrf");
+constexpr std::uint32_t axis_letters = Block::bits("xyzabcuvwe");
 
 constexpr bool is_letter(char c) noexcept {
     return c >= 'a' && c <= 'z';
@@ -55,9 +56,6 @@ void BlockReader::leave_axes_out(Block& out) const noexcept {
     if (left_out_.axes && !taken && !out.has(CodeGroup::motion)) {
         out.keep(Block::bits("fst"));
     }
-    if (left_out_.motion && !out.has(CodeGroup::motion)) { // later axis words are not those of the motion before
-        out.set_code(CodeGroup::motion, ModalState::no_motion, 1);
-    }
     if (left_out_.code) {
         out.set_left_out();
     }
@@ -97,7 +95,8 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     const std::int16_t modeless = out.code(CodeGroup::non_modal);
     out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & AxisLetters(*settings_).bits() : 0U)); // G28 X W
     leave_axes_out(out);
-    const bool no_shift = left_out_.word && !has_axes(out) && modeless == 920; // a printer's G92 E0 without E
+    // A printer's G92 E0 without E, and G28 A0 without A: no other axis is meant.
+    const bool no_shift = left_out_.axis && !has_axes(out) && (modeless == 280 || modeless == 300 || modeless == 920);
     // The words of a code that is left out are not another code's, whatever they are.
     if (left_out_.command || no_shift || (left_out_.code && !has_others(out))) {
         kind = LineKind::left_out;
@@ -248,8 +247,12 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         }
         return status;
     }
-    if (is_ignored(upper_case(letter), value)) {
-        left_out_.word = true;
+    if (find_ignored(upper_case(letter), value) != Ignored::no) {
+        if (!may_leave_out(letter)) {
+            text = word;
+            return ProgramError::ignored_word_counts;
+        }
+        left_out_.axis = left_out_.axis || (Block::letter_bit(letter) & axis_letters) != 0;
         note(as_it_stands);
         return {};
     }
@@ -300,11 +303,13 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
                                     bool& left_out) noexcept {
     const bool is_g = letter == 'g';
     std::int32_t code = 0;
-    CodeInfo info{CodeGroup::none, is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown};
-    if (value.raw >= 0 && value <= Decimal::from_integer(is_g ? 1000 : 10000) &&
-        to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
-        const CodeInfo found = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
-        info = found.group != CodeGroup::none || found.refusal != ProgramError::none ? found : info;
+    const bool is_number = value.raw >= 0 && value <= Decimal::from_integer(is_g ? 1000 : 10000) &&
+                           to_integer(is_g ? Decimal{value.raw * 10} : value, code);
+    constexpr std::int32_t none = 30000;
+    code = is_number ? code : none;
+    CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    if (info.group == CodeGroup::none) {
+        info.refusal = is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown;
     }
     const bool is_first = !has_command_;
     has_command_ = true;
@@ -316,19 +321,17 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
         left_out = true;
         return {};
     }
-    if (is_ignored(upper_case(letter), value) || (is_unknown && settings_->ignores_unknown)) {
-        const bool is_modal = info.group == CodeGroup::motion && code != ModalState::no_motion;
-        const bool takes_axes = info.group == CodeGroup::non_modal && code != 40 && code != 530;
+    const Ignored ignored = find_ignored(upper_case(letter), value);
+    if (may_be_left_out(info.effect) && (ignored != Ignored::no || (is_unknown && settings_->ignores_unknown))) {
         left_out_.code = left_out = true;
-        left_out_.motion = left_out_.motion || is_modal;
-        left_out_.axes = left_out_.axes || is_modal || takes_axes || (is_g && is_unknown) || (is_g && code == 431);
+        left_out_.axes = left_out_.axes || (info.group == CodeGroup::non_modal && code != 40);
         return {};
     }
-    if (info.refusal != ProgramError::none) {
+    if (info.refusal != ProgramError::none || ignored == Ignored::by_name) {
         if (info.group == CodeGroup::motion) {
             out.set_code(info.group, ModalState::lost_motion, column);
         }
-        return info.refusal;
+        return info.refusal != ProgramError::none ? info.refusal : ProgramError::ignored_word_counts;
     }
     if (info.group == CodeGroup::motion && out.has(info.group) &&
         (code == ModalState::no_motion ||
@@ -361,15 +364,28 @@ ProgramStatus BlockReader::read_checksum(TextCursor& text) noexcept {
     return text.at_end() || text.peek() == ';' ? ProgramStatus{} : ProgramStatus(ProgramError::character_invalid);
 }
 
-bool BlockReader::is_ignored(char letter, Decimal value) const noexcept {
+BlockReader::Ignored BlockReader::find_ignored(char letter, Decimal value) const noexcept {
+    Ignored out = Ignored::no;
     for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
         const IgnoredWord& word = settings_->ignored[i];
-        if (word.letter == letter &&
-            (word.tenths == IgnoredWord::any || value.raw == word.tenths * (Decimal::one / 10))) {
-            return true;
+        if (word.letter != letter) {
+            continue;
+        }
+        if (word.tenths == IgnoredWord::any) {
+            out = out == Ignored::no ? Ignored::by_letter : out;
+        } else if (value.raw == word.tenths * (Decimal::one / 10)) {
+            out = Ignored::by_name;
         }
     }
-    return false;
+    return out;
+}
+
+// Of words that are no codes: those of the machine, and axes that it does not have.
+bool BlockReader::may_leave_out(char letter) const noexcept {
+    const std::uint32_t bit = Block::letter_bit(letter);
+    const std::uint32_t steps = rules_->uvw_steps ? Block::bits("uvw") : 0U;
+    const std::uint32_t others = axis_letters & ~steps & ~AxisLetters(*settings_).bits();
+    return ((Block::bits("nst") | others) & bit) != 0;
 }
 
 } // namespace splinefeed

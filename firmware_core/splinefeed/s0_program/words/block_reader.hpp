@@ -44,14 +44,15 @@ private:
     void note(std::string_view word) const noexcept;
     [[nodiscard]] bool has_axes(const Block& block) const noexcept;
     [[nodiscard]] bool has_others(const Block& block) const noexcept;
-    [[nodiscard]] bool is_ignored(char letter, Decimal value) const noexcept;
+    enum class Ignored : std::uint8_t { no, by_letter, by_name };
+    [[nodiscard]] Ignored find_ignored(char letter, Decimal value) const noexcept;
+    [[nodiscard]] bool may_leave_out(char letter) const noexcept;
 
     // What the block has that is left out.
     struct LeftOut {
         bool code = false;      // a G or M word
         bool axes = false;      // one that takes axis words
-        bool motion = false;    // one that stays in effect for later blocks
-        bool word = false;      // another one
+        bool axis = false;      // a word of an axis
         bool command = false;   // an M word that the controller does not know: its line
         std::uint32_t bare = 0; // letters without a number
     };
