@@ -196,6 +196,55 @@ TEST_CASE("dwells in their units", "[program][dialects]") {
     CHECK(text(Dialect::fanuc, "F60 G82 G99 X1 Z-1 R0 P500").find("dwell 0.5") != std::string::npos);
 }
 
+TEST_CASE("P with a decimal point is seconds in fanuc", "[program][dialects]") {
+    CHECK(text(Dialect::fanuc, "G4 P2.\nG4 P0.5\nG4 P2\nG4 P[500]") == "dwell 2\ndwell 0.5\ndwell 0.002\ndwell 0.5");
+    CHECK(text(Dialect::fanuc, "F60 G82 G99 X1 Z-1 R0 P0.5").find("dwell 0.5") != std::string::npos);
+    CHECK(text(Dialect::marlin, "G4 P2.") == "dwell 0.002");
+    CHECK(text(Dialect::linuxcnc, "G4 P2.\nG4 P2") == "dwell 2\ndwell 2");
+}
+
+TEST_CASE("G80 leaves the motion from before the cycle in fanuc", "[program][dialects]") {
+    const std::string cycle = "F60 G0 X1 Y1 Z9\nG98 G81 X2 Z-1 R2\n";
+    const auto last = [](const std::string& program) {
+        const std::string all = text(Dialect::fanuc, program);
+        return all.substr(all.rfind('\n') + 1);
+    };
+    CHECK(last(cycle + "G80\nZ15") == "rapid 2 1 15");
+    CHECK(last(cycle + "G80 Z15") == "rapid 2 1 15");
+    CHECK(last("F60 G1 X1\nG81 X2 Z-1 R0\nG80\nX3") == "feed 3 0 0");
+    CHECK(last("F60 G1 X1\nG80\nX3") == "feed 3 0 0");
+    CHECK(last("F60 G1 X1\nG81 X2 Z-1 R0\nG80\nG82 X4 Z-1 R0 P1\nG80\nX5") == "feed 5 0 0");
+    CHECK(error(Dialect::fanuc, "G80", "X1") == ProgramError::axis_word_unused); // there was none
+    CHECK(error(Dialect::linuxcnc, cycle + "G80", "Z15") == ProgramError::axis_word_unused);
+    CHECK(error(Dialect::grbl, cycle, "G80 Z15") == ProgramError::axis_word_unused);
+}
+
+TEST_CASE("Fanuc's cycles take P, and make no hole with L0 or K0", "[program][dialects]") {
+    CHECK(text(Dialect::fanuc, "F60 G83 G99 X1 Z-1 R0 Q5 P300").find("dwell 0.3") != std::string::npos);
+    CHECK(text(Dialect::fanuc, "F60 G81 G99 X1 Z-1 R0 P300").find("dwell") == std::string::npos);
+    CHECK(text(Dialect::fanuc, "F60 G82 G99 X1 Z-1 R0 P300\nG83 X2 Z-1 R0 Q5").rfind("dwell") ==
+          text(Dialect::fanuc, "F60 G82 G99 X1 Z-1 R0 P300").rfind("dwell"));
+    CHECK(error(Dialect::fanuc, "F60", "G83 X1 Z-1 R0 Q5 P-1") == ProgramError::cycle_dwell_missing);
+    CHECK(error(Dialect::linuxcnc, "F60", "G83 X1 Z-1 R0 Q5 P1") == ProgramError::word_unused);
+    for (const char* const none : {"L0", "K0"}) {
+        const std::string cycle = std::string("F60 G0 Z5\nG81 G99 X1 Y1 Z-1 R2 ") + none;
+        CHECK(text(Dialect::fanuc, cycle) == "rapid 0 0 5");
+        CHECK(text(Dialect::fanuc, cycle + "\nX3").find("rapid 3 0 5\nrapid 3 0 2\nfeed 3 0 -1") != std::string::npos);
+    }
+    CHECK(error(Dialect::linuxcnc, "F60", "G81 X1 Z-1 R0 L0") == ProgramError::cycle_repeats_invalid);
+    CHECK(error(Dialect::grbl, "F60", "G81 X1 Z-1 R0 L0") == ProgramError::cycle_repeats_invalid);
+}
+
+TEST_CASE("what a printer's words do not read has no effect", "[program][dialects]") {
+    for (const Dialect dialect : {Dialect::marlin, Dialect::klipper}) {
+        CHECK(text(dialect, "G1 X5 Y5 F600\nG28 Z P0 T140\nG28 X0 S5 F1 I\nG1 Y1") ==
+              "feed 5 5 0\nhome 5 5 0\nhome 0 5 0\nfeed 0 1 0");
+        CHECK(text(dialect, "G1 X5 F600\nG5\nX6\nG5 F1200\nX7") == "feed 5 0 0\nfeed 6 0 0\nfeed 7 0 0");
+        CHECK(error(dialect, "", "G5 I1 J1") == ProgramError::axis_words_missing);
+    }
+    CHECK(error(Dialect::linuxcnc, "F60", "G5") == ProgramError::axis_words_missing);
+}
+
 TEST_CASE("Fanuc's steps, cancels and motions beside G28", "[program][dialects]") {
     CHECK(text(Dialect::fanuc, "G0 X5 Z5\nU1. W-1.\nG91 U1.\nG90 X1") ==
           "rapid 5 0 5\nrapid 6 0 4\nrapid 7 0 4\nrapid 1 0 4");

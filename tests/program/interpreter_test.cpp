@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "splinefeed/number/vector.hpp"
+
 #include "support/gcode.hpp"
 
 using namespace splinefeed_test;
@@ -61,6 +63,49 @@ TEST_CASE("a feed plan that knows rotary axes gets F", "[program][interpreter]")
     CHECK(feed("G93 X3 A4 F60") == Approx(3.0));
     CHECK(feed("X0.0005 A100 F60") == Approx(0.0005)); // a slower one than the slowest F
     CHECK(feed("A30 F60") == Approx(30.0));
+}
+
+TEST_CASE("what F counts is the controller's", "[program][interpreter]") {
+    struct Case {
+        Dialect dialect;
+        const char* before;
+        const char* line;
+        double seconds;
+    };
+    constexpr double minute = 60.0;
+    const Case cases[] = {
+        {Dialect::linuxcnc, "G21", "G1 X10 A90 F600", minute * 10.0 / 600.0},
+        {Dialect::grbl, "G21", "G1 X10 A90 F600", minute * std::hypot(10.0, 90.0) / 600.0},
+        {Dialect::fanuc, "G21", "G1 X10 A90 F600", minute * std::hypot(10.0, 90.0) / 600.0},
+        {Dialect::fanuc, "G21", "G1 X20 B40 F300", 0.14907 * minute}, // the example of its manual
+        {Dialect::grbl, "G21 G0 X0", "G2 X10 I5 A40 F600", minute * std::hypot(5.0 * M_PI, 40.0) / 600.0},
+        {Dialect::linuxcnc, "G20", "G1 A90 F60", minute * 90.0 / 60.0},
+        {Dialect::fanuc, "G20", "G1 A90 F60", minute * 90.0 / 60.0},
+        {Dialect::fanuc, "G20", "G1 X1 A90 F60", minute * std::hypot(1.0, 90.0) / 60.0},
+        {Dialect::grbl, "G20", "G1 A90 F60", minute * 90.0 / (60.0 * 25.4)},
+        {Dialect::grbl, "G20", "G1 X1 A90 F60", minute * std::hypot(25.4, 90.0) / (60.0 * 25.4)},
+        {Dialect::linuxcnc, "G20\nF60\nG21", "G1 A90", minute * 90.0 / 60.0}, // as F was stated
+        {Dialect::linuxcnc, "G20", "G1 X1 F60", minute / 60.0},
+        {Dialect::fanuc, "G20", "G93 G1 X1 A90 F2", minute / 2.0},
+        {Dialect::grbl, "G21", "G1 Z0.001 A360 F600", minute * 360.0 / 600.0},
+    };
+    for (const Case& test : cases) {
+        for (const bool knows_rotary : {false, true}) {
+            ProgramSettings settings = six_axes();
+            settings.dialect = test.dialect;
+            settings.rotary_axes = knows_rotary ? 0x38 : 0;
+            GcodeRun<double> run(settings);
+            run.run(test.before);
+            const PerAxis<Position> from = run.interpreter().position();
+            const ProgramItem<double> item = run.run(test.line).back();
+            const PerAxis<double> way = distances<double>(from, item.element.to, 0, 6);
+            const double space = item.element.shape == MoveShape::arc ? 5.0 * M_PI : std::hypot(way[0], way[1], way[2]);
+            const double rotary = std::hypot(way[3], way[4], way[5]);
+            const double length = !knows_rotary ? std::hypot(space, rotary) : space > 0.0 ? space : rotary;
+            CAPTURE(test.line, test.before, static_cast<int>(test.dialect), knows_rotary);
+            CHECK(length / item.element.feed_mm_s == Approx(test.seconds).epsilon(1e-4));
+        }
+    }
 }
 
 TEST_CASE("items have the line of the source, or its number N where that is asked for", "[program][interpreter]") {

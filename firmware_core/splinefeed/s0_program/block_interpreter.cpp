@@ -3,6 +3,7 @@
 
 #include "splinefeed/s0_program/text/decimal_text.hpp"
 #include "splinefeed/s0_program/words/adapt_words.hpp"
+#include "splinefeed/s0_program/words/lathe_sign.hpp"
 #include "splinefeed/s0_program/words/polar_words.hpp"
 
 namespace splinefeed {
@@ -154,10 +155,15 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         plan_homing(0);
         stage_ = 0;
     } else if (kind == LineKind::block) {
+        const BlockStatus milled = check_lathe(block_, modal_, rules());
         const BlockStatus adapted = adapt_words(block_, modal_, letters_, settings_);
         const SpacePoint place = space(place_.program);
         const BlockStatus polar = adapt_polar(block_, modal_, letters_, {place[0], place[1]});
-        status = !status.ok() ? status : !adapted.ok() ? adapted : !polar.ok() ? polar : execute();
+        status = !status.ok()    ? status
+                 : !milled.ok()  ? milled
+                 : !adapted.ok() ? adapted
+                 : !polar.ok()   ? polar
+                                 : execute();
     }
     if (!status.ok()) {
         status.length = word_length(text, status.column);

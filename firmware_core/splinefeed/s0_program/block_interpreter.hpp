@@ -88,6 +88,7 @@ protected:
     /// Whether the block ends or pauses the program behind its motion.
     [[nodiscard]] bool stops_behind() const noexcept { return block_.has(CodeGroup::stop); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
+    [[nodiscard]] const DialectRules& rules() const noexcept { return rules_of(settings_.dialect); }
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
@@ -123,7 +124,6 @@ private:
     BlockStatus execute_percent() noexcept;
     void plan_homing(std::uint32_t axes) noexcept;
     void end_shift(std::uint32_t axes) noexcept;
-    [[nodiscard]] const DialectRules& rules() const noexcept { return rules_of(settings_.dialect); }
 
     // Offsets: offset_words.cpp.
     BlockStatus set_tool_length() noexcept;

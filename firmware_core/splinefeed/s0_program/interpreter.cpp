@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The feed of a move is along x, y, z, as in LinuxCNC: along u, v, w where those do not move, along a, b, c (in
-// degrees) where neither does. The core's feed is along the path in all axes, so that a move takes the same time it is
+// degrees) where neither does. In some dialects it is along all of them. The core's feed is along the path in all axes,
+// so that a move takes the same time it is
 //     F * (length in all axes) / (length that F counts).
+// An F in inches is one in degrees, too: a degree counts as an inch.
 #include "splinefeed/s0_program/interpreter.hpp"
 
 #include "splinefeed/number/instantiate.hpp"
@@ -335,7 +337,9 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     }
     const S in_space = space_length(step);
     const S in_second = norm(second, max_axes);
-    const S in_rotary = norm(rotary, max_axes);
+    const S degrees = norm(rotary, max_axes);
+    const bool in_inches = how.feed_in_inches && !rules().degree_is_mm;
+    const S in_rotary = in_inches ? product_up_to(degrees, literal<S>(25.4), literal<S>(0x1p29)) : degrees;
     const S in_extruder = norm(extruder, max_axes);
     const std::array<S, 2> parts{in_space, norm(counted_by_plan, max_axes)};
     S total = norm(parts, 2);
@@ -344,8 +348,14 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
         // Its part in the linear axes may be tiny; 0 would be the machine's feed.
         return larger(product_up_to(total, per_second, literal<S>(fastest_mm_s)), literal<S>(0x1p-32));
     }
-    const S counted = space ? in_space : in_second > S{} ? in_second : in_rotary > S{} ? in_rotary : in_extruder;
-    return clamped(product_up_to(quotient_or_max(total, counted), clamped(per_second), literal<S>(fastest_mm_s)));
+    const std::array<S, 3> all{in_space, in_second, in_rotary};
+    const S counted = rules().feed_of_all_axes ? norm(all, 3)
+                      : space                  ? in_space
+                      : in_second > S{}        ? in_second
+                      : in_rotary > S{}        ? in_rotary
+                                               : in_extruder;
+    const S feed = product_up_to(quotient_or_max(total, counted), clamped(per_second), literal<S>(fastest_mm_s));
+    return rules().feed_of_all_axes ? larger(feed, literal<S>(0x1p-32)) : clamped(feed); // as above
 }
 
 #if SPLINEFEED_MAX_DEGREE >= 5

@@ -134,6 +134,7 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     plan_.manner = {modal_.path_mode,
                     modal_.inverse_time,
                     false,
+                    modal_.feed_in_inches,
                     modal_.tolerance_mm,
                     modal_.chain_tolerance_mm,
                     modal_.feed,
@@ -145,13 +146,13 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
         return plan_reference_move();
     }
     if (block_.code(CodeGroup::motion) == ModalState::no_motion) {
-        modal_.motion = ModalState::no_motion;
+        modal_.set_motion(ModalState::no_motion, rules());
         cycle_words_.begun = false;
     }
     if (use.axes != AxisUse::motion) {
         return {};
     }
-    modal_.motion = use.motion;
+    modal_.set_motion(use.motion, rules());
     const bool cycle = is_cycle(use.motion);
     cycle_words_.begun = cycle_words_.begun && cycle;
     if (cycle && modal_.inverse_time) {
@@ -276,9 +277,16 @@ void BlockInterpreter::plan_parabola(unsigned first, unsigned second, const ArcG
 
 BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     const AxisPoint at = place_.program;
+    const bool idle = rules().idle_cycles && block_.has('l') && block_.value('l').raw == 0;
+    if (idle) { // its words are those of the next hole
+        block_.keep(~Block::letter_bit('l'));
+    }
     CannedCycle& cycle = series_.emplace<CannedCycle>();
     if (const BlockStatus status = cycle.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
         return status;
+    }
+    if (idle) {
+        return {};
     }
     plan_.kind = PlanKind::cycle;
     const AxisPoint end = cycle.end();

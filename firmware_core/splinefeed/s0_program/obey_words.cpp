@@ -63,7 +63,8 @@ void BlockInterpreter::obey_modes() noexcept {
     }
     if (block_.has(CodeGroup::motion)) { // holes without the words of their cycle are not judged
         const std::int16_t motion = block_.code(CodeGroup::motion);
-        modal_.motion = is_cycle(motion) ? ModalState::lost_motion : motion;
+        modal_.set_motion(motion, rules());
+        modal_.motion = is_cycle(motion) ? ModalState::lost_motion : modal_.motion;
     }
     const std::int16_t modeless = block_.code(CodeGroup::non_modal);
     const bool moves = (modeless == Block::no_code || modeless == 530) && modal_.motion != ModalState::no_motion &&

@@ -117,7 +117,7 @@ BlockStatus BlockInterpreter::plan_reference_move() noexcept {
         axes |= has_axis(k) ? 1U << static_cast<unsigned>(k) : 0U;
     }
     if (block_.has(CodeGroup::motion)) { // it is a mode only
-        modal_.motion = block_.code(CodeGroup::motion);
+        modal_.set_motion(block_.code(CodeGroup::motion), rules());
     }
     if (rules().g28_homes) {
         plan_homing(axes);

@@ -37,7 +37,7 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
     if (taps(code_) && modal.spindle != needed) {
         return block.at(ProgramError::tapping_direction, CodeGroup::motion);
     }
-    if (taps(code_) && block.value('p').raw < 0) {
+    if (block.value('p').raw < 0) {
         return block.at(ProgramError::cycle_dwell_missing, 'p');
     }
     if (code_ == 860 && modal.spindle == SpindleState::stopped) {
@@ -45,7 +45,8 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
     }
     words.depth = block.has(normal) ? modal.in_mm(block.value(normal)) : words.depth;
     words.clearance = block.has('r') ? modal.in_mm(block.value('r')) : words.clearance;
-    words.dwell_s = (dwells() || taps(code_)) && block.has('p') ? block.value('p') : words.dwell_s;
+    const bool may_dwell = dwells() || taps(code_) || pecks();
+    words.dwell_s = may_dwell && block.has('p') ? block.value('p') : fresh && pecks() ? Decimal{} : words.dwell_s;
     words.peck = block.has('q') ? modal.in_mm(block.value('q')) : words.peck;
     dwell_s_ = words.dwell_s;
     peck_ = words.peck;
@@ -153,7 +154,7 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
         if (taps(code_)) {
             return next_of_tap(at);
         }
-        if (hole_step_ == 0 && dwells()) {
+        if (hole_step_ == 0 && (dwells() || (pecks() && dwell_s_.raw > 0))) {
             hole_step_ = 1;
             return CycleStep::dwell;
         }

@@ -53,6 +53,7 @@ private:
 
     BlockStatus read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
                            CycleWords& words) noexcept;
+    /// In the hole, by a P that it needs.
     [[nodiscard]] bool dwells() const noexcept { return code_ == 820 || code_ == 860 || code_ == 890; }
     [[nodiscard]] bool pecks() const noexcept { return code_ == 730 || code_ == 830; }
     CycleStep next_peck(AxisPoint& at) noexcept;

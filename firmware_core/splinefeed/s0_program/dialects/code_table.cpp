@@ -144,6 +144,7 @@ struct CodeRows {
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
+        Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},
         Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
         Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported, in_fanuc},
     };

@@ -31,6 +31,8 @@ struct DialectTable {
         .units_before_feed = true,
         .g53_incremental = true,
         .free_third_offset = true,
+        .feed_of_all_axes = true,
+        .degree_is_mm = true,
         .speed_stops = false,
         .arc = arc_grbl,
         .arc_in_inches = arc_grbl,
@@ -64,11 +66,16 @@ struct DialectTable {
 
     // Its controls state no tolerance in public; LinuxCNC's is that of the same decimals.
     static constexpr DialectRules fanuc{
+        .mills_only = true,
         .uvw_steps = true,
         .lead_is_feed = true,
         .motion_beside_offsets = true,
+        .feed_of_all_axes = true,
         .dwell_words = true,
         .dwell = DwellUnit::millisecond,
+        .dwell_point_seconds = true,
+        .cycles_apart = true,
+        .idle_cycles = true,
         .first_motion = 800,
         .arc = arc_linuxcnc,
         .arc_in_inches = arc_linuxcnc_inches,

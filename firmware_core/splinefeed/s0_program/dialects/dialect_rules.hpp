@@ -27,6 +27,7 @@ struct DialectRules {
     bool skips_unknown = false; ///< unknown M words are left out with their line, as the controller does
     bool dollar_lines = false;  ///< $ begins a command of the controller
     bool polar_words = false;   ///< @ and ^
+    bool mills_only = false;    ///< words of a lathe's program refuse it
     bool uvw_steps = false;     ///< U V W are steps along X Y Z, where the machine has no such axes
     // Words.
     bool units_before_feed = false;     ///< G20 and G21 act on F of their own block
@@ -40,16 +41,21 @@ struct DialectRules {
     bool bare_g92 = false;              ///< G92 without axes: all stand at 0
     bool g28_homes = false;             ///< G28 is homing, and ends the shift of G92 for its axes
     bool rapid_has_feed = false;        ///< G0 has the feed F
+    bool feed_of_all_axes = false;      ///< F counts all axes of a move, a degree as a unit of length
+    bool degree_is_mm = false;          ///< and an inch per minute is 25.4 degrees per minute
     bool speed_stops = true;            ///< S waits for standstill; engravers change the power while they move
     bool dwell_words = false;           ///< G4 takes X or U, too
     bool dwell_speed = false;           ///< G4 and pauses take S as a time
     DwellUnit dwell = DwellUnit::second;
-    bool retracts_to_r = false;    ///< cycles begin in G99, others in G98
-    std::int16_t first_motion = 0; ///< in effect before the first block: ten times the G word; 800: none
-    std::int16_t last_motion = 10; ///< and behind M2 and M30
-    Decimal first_feed{};          ///< before any F [mm/min]
-    ArcTolerance arc{};            ///< in mm
-    ArcTolerance arc_in_inches{};  ///< under G20, in mm, too
+    bool dwell_point_seconds = false; ///< P with a decimal point is in seconds
+    bool retracts_to_r = false;       ///< cycles begin in G99, others in G98
+    bool cycles_apart = false;        ///< cycles are of a group of their own: G80 leaves the motion from before them
+    bool idle_cycles = false;         ///< a cycle takes P, and without repeats (L0) it makes no hole
+    std::int16_t first_motion = 0;    ///< in effect before the first block: ten times the G word; 800: none
+    std::int16_t last_motion = 10;    ///< and behind M2 and M30
+    Decimal first_feed{};             ///< before any F [mm/min]
+    ArcTolerance arc{};               ///< in mm
+    ArcTolerance arc_in_inches{};     ///< under G20, in mm, too
 };
 
 /// @param dialect  one of Dialect

@@ -37,6 +37,9 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::thread_unsupported, "this thread word is not supported; cut each pass by G33, or the thread by "
                                        "helical arcs, G2 or G3 with Z"},
     {ProgramError::lathe_unsupported, "lathe cycles (G70 to G72) are not supported; program each pass as moves"},
+    {ProgramError::lathe_word, "it is a lathe's: T0101, G50 S, G99 with a small F, G90, G92 or G94 as a cycle; read as "
+                               "a mill's, the program would "
+                               "move elsewhere"},
     {ProgramError::boring_unsupported, "G87 and G88 are not supported; use G85, G86 or G89, or moves of their own"},
     {ProgramError::surface_speed_unsupported,
      "constant surface speed is not supported, as X is no diameter here; use G97 and S in rpm"},

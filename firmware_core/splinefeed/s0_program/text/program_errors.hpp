@@ -35,6 +35,7 @@ enum class ProgramError : std::uint8_t {
     polar_unsupported,
     thread_unsupported,
     lathe_unsupported,
+    lathe_word,
     boring_unsupported,
     surface_speed_unsupported,
     plane_unsupported,

@@ -27,6 +27,14 @@ void count_increments(Block& block, const ModalState& modal, bool cycle) noexcep
     }
 }
 
+// P, a time.
+void count_milliseconds(Block& block, const DialectRules& rules) noexcept {
+    const bool seconds = rules.dwell == DwellUnit::second || (rules.dwell_point_seconds && block.has_dwell_point());
+    if (!seconds && block.has('p')) {
+        block.change('p', {block.value('p').raw / 1000});
+    }
+}
+
 BlockStatus adapt_dwell(Block& block, const DialectRules& rules) noexcept {
     for (const char letter : {'x', 'u', 's'}) {
         if (block.has(letter) && (letter == 's' ? rules.dwell_speed : rules.dwell_words)) {
@@ -37,9 +45,7 @@ BlockStatus adapt_dwell(Block& block, const DialectRules& rules) noexcept {
             return {};
         }
     }
-    if (rules.dwell == DwellUnit::millisecond && block.has('p')) {
-        block.change('p', {block.value('p').raw / 1000});
-    }
+    count_milliseconds(block, rules);
     return {};
 }
 
@@ -77,8 +83,8 @@ BlockStatus adapt_words(Block& block, const ModalState& modal, const AxisLetters
     if (modeless == 40) {
         return adapt_dwell(block, rules);
     }
-    if (cycle && rules.dwell == DwellUnit::millisecond && block.has('p')) {
-        block.change('p', {block.value('p').raw / 1000});
+    if (cycle) {
+        count_milliseconds(block, rules);
     }
     if (rules.lead_is_feed && motion == 330 && block.has('f') && !block.has('k')) {
         block.rename('f', 'k', block.value('f'));

@@ -18,7 +18,7 @@ public:
 
     void clear() noexcept {
         present_ = steps_ = whole_ = 0;
-        has_left_out_ = false;
+        has_left_out_ = has_long_tool_ = has_dwell_point_ = false;
         codes_.fill(no_code);
         comment_ = CommentKind::none;
         text_ = {};
@@ -41,9 +41,17 @@ public:
     /// The value of the axis is a step, in G90, too.
     void set_step(char axis) noexcept { steps_ |= letter_bit(axis); }
     [[nodiscard]] bool is_step(char axis) const noexcept { return (steps_ & letter_bit(axis)) != 0; }
-    /// The number has no decimal point.
-    void set_whole(char letter) noexcept { whole_ |= letter_bit(letter); }
+    /// Whether the number was written with a decimal point; of an expression neither.
+    void set_point(char letter, bool has_point) noexcept {
+        whole_ |= has_point ? 0U : letter_bit(letter);
+        has_dwell_point_ = has_dwell_point_ || (has_point && letter == 'p');
+    }
     [[nodiscard]] bool is_whole(char letter) const noexcept { return (whole_ & letter_bit(letter)) != 0; }
+    /// P has one.
+    [[nodiscard]] bool has_dwell_point() const noexcept { return has_dwell_point_ && has('p'); }
+    /// T was written with four digits.
+    void set_long_tool() noexcept { has_long_tool_ = true; }
+    [[nodiscard]] bool has_long_tool() const noexcept { return has_long_tool_ && has('t'); }
     /// A G or M word of the block was left out: letters that no other word uses were its own.
     void set_left_out() noexcept { has_left_out_ = true; }
     [[nodiscard]] bool has_left_out() const noexcept { return has_left_out_; }
@@ -106,6 +114,8 @@ private:
     std::uint32_t steps_ = 0;
     std::uint32_t whole_ = 0;
     bool has_left_out_ = false;
+    bool has_long_tool_ = false;
+    bool has_dwell_point_ = false;
     CommentKind comment_ = CommentKind::none;
     std::array<Decimal, 28> values_{};
     std::array<std::uint8_t, 28> columns_{}; // from 0

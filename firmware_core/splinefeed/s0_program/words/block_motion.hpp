@@ -32,7 +32,8 @@ struct BezierPlan {
 struct MoveManner {
     PathMode mode = PathMode::continuous;
     bool inverse_time = false;
-    bool per_turn = false; ///< under G96: the feed is the way of a turn
+    bool per_turn = false;       ///< under G96: the feed is the way of a turn
+    bool feed_in_inches = false; ///< it was stated in them, or in degrees
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};
     Decimal feed{};

@@ -94,9 +94,13 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     }
     const std::int16_t modeless = out.code(CodeGroup::non_modal);
     out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & AxisLetters(*settings_).bits() : 0U)); // G28 X W
+    if (modeless == 280 && rules_->g28_homes) { // how it homes is the printer's
+        out.keep(AxisLetters(*settings_).bits() | Block::letter_bit('n'));
+    }
     leave_axes_out(out);
     // A printer's G92 E0 without E, and G28 A0 without A: no other axis is meant.
-    const bool no_shift = left_out_.axis && !has_axes(out) && (modeless == 280 || modeless == 300 || modeless == 920);
+    const bool is_of_axes = modeless == 300 || modeless == 920 || (modeless == 280 && !rules_->g28_homes);
+    const bool no_shift = left_out_.axis && !has_axes(out) && is_of_axes;
     // The words of a code that is left out are not another code's, whatever they are.
     if (left_out_.command || no_shift || (left_out_.code && !has_others(out))) {
         kind = LineKind::left_out;
@@ -261,8 +265,11 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         return ProgramError::word_repeated;
     }
     out.set(letter, value, column);
-    if (first != '#' && first != '[' && std::ranges::count(as_it_stands, '.') == 0) {
-        out.set_whole(letter);
+    if (first != '#' && first != '[') {
+        out.set_point(letter, std::ranges::count(as_it_stands, '.') > 0);
+        if (letter == 't' && std::ranges::count_if(as_it_stands, is_part_of_number) == 4) {
+            out.set_long_tool();
+        }
     }
     return {};
 }
@@ -324,6 +331,7 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
     const Ignored ignored = find_ignored(upper_case(letter), value);
     if (may_be_left_out(info.effect) && (ignored != Ignored::no || (is_unknown && settings_->ignores_unknown))) {
         left_out_.code = left_out = true;
+        left_out_.command = left_out_.command || (rules_->one_command && is_first);
         left_out_.axes = left_out_.axes || (info.group == CodeGroup::non_modal && code != 40);
         return {};
     }

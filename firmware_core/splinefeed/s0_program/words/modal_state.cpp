@@ -2,6 +2,7 @@
 #include "splinefeed/s0_program/words/modal_state.hpp"
 
 #include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/words/lathe_sign.hpp"
 
 namespace splinefeed {
 
@@ -21,7 +22,7 @@ ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     ModalState state;
     const DialectRules& rules = rules_of(settings.dialect);
     state.retract_to_r = rules.retracts_to_r;
-    state.motion = rules.first_motion;
+    state.motion = state.before_cycle = rules.first_motion;
     state.feed = rules.first_feed;
     state.tolerance_mm = settings.default_tolerance_mm;
     state.chain_tolerance_mm = usual_chain_tolerance(state.tolerance_mm, settings);
@@ -37,7 +38,7 @@ void ModalState::end_program(const ProgramSettings& settings) noexcept {
     inverse_time = per_turn = false;
     needs_straight = false;
     cutter = {};
-    motion = rules_of(settings.dialect).last_motion;
+    motion = before_cycle = rules_of(settings.dialect).last_motion;
     spindle = SpindleState::stopped;
 }
 
@@ -67,6 +68,7 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     if (block.has('t') && (!to_integer(block.value('t'), selected_tool) || selected_tool < 0)) {
         return block.at(ProgramError::tool_unknown, 't');
     }
+    lathe_tool = block.has('t') || block.has(CodeGroup::tool_change) ? has_tool_and_offset(block) : lathe_tool;
     if (const std::int16_t code = block.code(CodeGroup::spindle); code != Block::no_code) {
         spindle = code == 3   ? SpindleState::clockwise
                   : code == 4 ? SpindleState::counterclockwise

@@ -18,7 +18,8 @@ struct ModalState {
     static constexpr std::int16_t lost_motion =
         30000; ///< one that was refused by name, where further errors are looked for
 
-    std::int16_t motion = no_motion; ///< ten times the G word
+    std::int16_t motion = no_motion;       ///< ten times the G word
+    std::int16_t before_cycle = no_motion; ///< the last one that was no cycle
     Plane plane = Plane::xy;
     bool inches = false;
     bool incremental = false;
@@ -29,6 +30,7 @@ struct ModalState {
     bool diameter = false;             ///< G7: X is one
     bool feed_in_inches = false;       ///< F was
     bool retract_to_r = false;         ///< G99
+    bool lathe_tool = false;           ///< the last T has the number of an offset: T0101
     bool needs_straight = false;       ///< behind G40 the tool is beside the programmed point
     CutterOffset cutter{};             ///< G41, G42
     PathMode path_mode = PathMode::continuous;
@@ -42,6 +44,11 @@ struct ModalState {
 
     /// Before the first block.
     [[nodiscard]] static ModalState at_start(const ProgramSettings& settings) noexcept;
+    /// A motion word is in effect; G80: the one that it leaves.
+    void set_motion(std::int16_t code, const DialectRules& rules) noexcept {
+        motion = code == no_motion && rules.cycles_apart ? before_cycle : code;
+        before_cycle = rules.cycles_apart && !is_cycle(motion) ? motion : before_cycle;
+    }
     /// What M2 and M30 leave: G1, G17, G40, G90, G94 and M5. Units, F, S and T stay.
     void end_program(const ProgramSettings& settings) noexcept;
     /// A length or a feed of the program in mm.

@@ -34,10 +34,10 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     } else if (is_cycle(motion)) {
         used |= Block::bits("lr");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
-        used |= motion == 820 || motion == 860 || motion == 890 || taps(motion) ? Block::bits("p") : 0;
+        const bool dwells = motion == 820 || motion == 860 || motion == 890 || taps(motion);
+        used |= dwells || rules.idle_cycles ? Block::bits("p") : 0;
     }
     used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
-    used |= modeless == 280 && rules.g28_homes ? Block::bits("lor") : 0; // how, which is the printer's
     used |= block.has(CodeGroup::without_effect) ? Block::bits("pqr") : 0;
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
@@ -155,7 +155,15 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, const Dia
         return {};
     }
     if (motion == ModalState::no_motion) {
-        return axes ? block.at(ProgramError::axis_word_unused, CodeGroup::motion) : BlockStatus{};
+        const bool goes_on = axes && rules.cycles_apart && modal.before_cycle != ModalState::no_motion;
+        out.motion = goes_on ? modal.before_cycle : out.motion;
+        out.axes = goes_on ? AxisUse::motion : out.axes;
+        return axes && !goes_on ? block.at(ProgramError::axis_word_unused, CodeGroup::motion) : BlockStatus{};
+    }
+    const bool is_bare =
+        rules.one_command && motion >= 50 && motion <= 51 && !axes && !block.has_any(Block::bits("ijpq"));
+    if (is_bare) { // a printer's curve to where it stands
+        return {};
     }
     if (motion != Block::no_code) {
         const bool free = motion <= 30 || motion == 52;
