@@ -15,7 +15,19 @@ TEST_CASE("A word of another dialect is told with the dialect that has it") {
         CHECK(dialect_hint("?", ProgramError::character_invalid, dialect).find("grbl takes this byte") == 0);
     }
     CHECK(dialect_hint("$X", ProgramError::character_invalid, Dialect::linuxcnc).find("--dialect grbl") < 60);
-    CHECK(dialect_hint("W-2.", ProgramError::axis_missing, Dialect::linuxcnc).find("--dialect fanuc") < 60);
+}
+
+TEST_CASE("No advice changes what the program means") {
+    for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl, Dialect::marlin}) { // W may be an axis of its own
+        const std::string_view hint = dialect_hint("W-2.", ProgramError::axis_missing, dialect);
+        CHECK(hint.find("the machine has no such axis") == 0);
+        CHECK(hint.find("--") == std::string_view::npos);
+    }
+    CHECK(dialect_hint("M190 P2", ProgramError::user_code_unsupported, Dialect::linuxcnc).empty()); // of plasma
+    CHECK(dialect_hint("M190P2Q1", ProgramError::user_code_unsupported, Dialect::grbl).empty());
+    CHECK_FALSE(dialect_hint("M190 S60 (PQ)", ProgramError::user_code_unsupported, Dialect::linuxcnc).empty());
+    CHECK(dialect_hint("M83", ProgramError::m_code_unknown, Dialect::fanuc).empty()); // its air jet
+    CHECK(option_advice(ProgramError::not_in_dialect).find("--") == std::string_view::npos);
 }
 
 TEST_CASE("A decimal comma and prose are told as such") {

@@ -42,9 +42,11 @@ std::optional<CodeWord> code_of(std::string_view text) {
     return CodeWord{letter, static_cast<std::int32_t>(number.raw / tenth)};
 }
 
+// With P or Q it is another control's: a user code, or the material of a plasma table (M190 P2).
 bool is_printer_word(std::string_view text) {
     const std::optional<CodeWord> code = code_of(text);
-    if (!code || code->letter != 'm' || code->tenths % 10 != 0) {
+    if (!code || code->letter != 'm' || code->tenths % 10 != 0 ||
+        text.substr(0, text.find_first_of("(;")).find_first_of("pPqQ") != std::string_view::npos) {
         return false;
     }
     const CodeInfo info = code->in(Dialect::marlin);
@@ -67,7 +69,7 @@ bool is_call(std::string_view text) {
 }
 
 constexpr std::pair<ProgramError, std::string_view> helping_options[] = {
-    {ProgramError::not_in_dialect, "; --dialect linuxcnc does"},
+    {ProgramError::not_in_dialect, "; that of linuxcnc has it"},
     {ProgramError::axis_missing, "; --ignore leaves the letter out"},
     {ProgramError::tool_table_missing, "; --tools gives one"},
     {ProgramError::m_code_unknown, "; --ignore leaves such a word out"},
@@ -100,8 +102,9 @@ std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect
     case ProgramError::m_code_unknown:
     case ProgramError::not_in_dialect:
     case ProgramError::user_code_unsupported:
-        return !rules.extruder && is_printer_word(text) ? "this dialect does not have the word; --dialect marlin does"
-                                                        : "";
+        return dialect != Dialect::fanuc && !rules.extruder && is_printer_word(text)
+                   ? "this dialect does not have the word; --dialect marlin does"
+                   : "";
     case ProgramError::word_unused:
         return !rules.extruder && first == 'e'
                    ? "E is the filament of a printer; --dialect marlin has it, and --ignore E leaves it out"
@@ -126,7 +129,7 @@ std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect
                                                      : "a dwell needs P, its seconds, and P is at least 0";
     case ProgramError::axis_missing:
         return first >= 'u' && first <= 'w' && !rules.uvw_steps
-                   ? "the machine has no such axis; --dialect fanuc reads U, V and W as steps along X, Y and Z"
+                   ? "the machine has no such axis, and U, V and W are no steps of X, Y and Z in this dialect"
                    : "";
     default: return "";
     }
