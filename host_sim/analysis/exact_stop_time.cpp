@@ -80,8 +80,7 @@ double rest_to_rest_s(double length, double speed, double acceleration, double j
     return 4.0 * std::cbrt(0.5 * length / jerk);
 }
 
-double ExactStopTime::feed_of(const PathElement<double>& move) const noexcept {
-    double feed = settings_->max_feed_mm_s;
+double ExactStopTime::feed_of(const PathElement<double>& move, double feed) noexcept {
     for (const double stated : {move.feed_mm_s, move.max_feed_mm_s}) {
         feed = stated > 0.0 ? std::fmin(feed, stated) : feed;
     }
@@ -94,7 +93,9 @@ double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept
     const double linear_sq =
         sum_of(axes, [&](unsigned k) { return settings_->axis[k].rotary ? 0.0 : way[k] * way[k]; });
     const double length = std::sqrt(dot(way, way, axes));
-    double speed = linear_sq > 0.0 ? feed_of(move) * length / std::sqrt(linear_sq) : unlimited;
+    // Of rotary axes alone the feed is that of the move: the one of the machine is of the linear axes.
+    double speed = linear_sq > 0.0 ? feed_of(move, settings_->max_feed_mm_s) * length / std::sqrt(linear_sq)
+                                   : feed_of(move, unlimited);
     double acceleration = unlimited;
     double jerk = unlimited;
     for (const unsigned k : indices(settings_->axes)) {
@@ -111,7 +112,7 @@ double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept
 
 double ExactStopTime::bent_s(const PathElement<double>& move) const noexcept {
     const AxisTotals totals = axis_totals(*settings_);
-    double speed = feed_of(move);
+    double speed = feed_of(move, settings_->max_feed_mm_s);
     for (const unsigned k : indices(settings_->axes)) {
         speed = std::fmin(speed, settings_->axis[k].max_velocity_mm_s);
     }

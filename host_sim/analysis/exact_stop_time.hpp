@@ -26,7 +26,8 @@ public:
 private:
     [[nodiscard]] double straight_s(const PathElement<double>& move) const noexcept;
     [[nodiscard]] double bent_s(const PathElement<double>& move) const noexcept;
-    [[nodiscard]] double feed_of(const PathElement<double>& move) const noexcept;
+    /// @param feed  where the move states none, and the most
+    [[nodiscard]] static double feed_of(const PathElement<double>& move, double feed) noexcept;
 
     const MachineSettings* settings_;
     PerAxis<Position> here_{};

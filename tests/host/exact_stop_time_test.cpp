@@ -124,3 +124,26 @@ TEST_CASE("An arc of many turns is as long as they are, and no sharper than one"
         }
     }
 }
+
+TEST_CASE("A move of rotary axes alone has its programmed feed, and no more than the move allows") {
+    MachineSettings machine;
+    machine.axes = 4;
+    machine.max_feed_mm_s = 50.0;
+    machine.axis[3].rotary = true;
+    machine.axis[3].max_velocity_mm_s = 360.0;
+    const auto seconds = [&](double feed, double most, double x) {
+        ExactStopTime time(machine);
+        time.start({});
+        PathElement<double> move;
+        move.to = {position_from_mm(x), {}, {}, position_from_mm(90.0)};
+        move.feed_mm_s = feed;
+        move.max_feed_mm_s = most;
+        time.move(move);
+        return time.seconds();
+    };
+    const double a = machine.axis[3].smaller_acceleration_mm_s2();
+    CHECK(seconds(10.0, 0.0, 0.0) == Approx(rest_to_rest_s(90.0, 10.0, a, 0.0)));
+    CHECK(seconds(100.0, 30.0, 0.0) == Approx(rest_to_rest_s(90.0, 30.0, a, 0.0)));
+    CHECK(seconds(0.0, 0.0, 0.0) == Approx(rest_to_rest_s(90.0, 360.0, a, 0.0))); // a rapid
+    CHECK(seconds(10.0, 0.0, 10.0) < 1.2);                                        // x counts
+}
