@@ -295,7 +295,6 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
               "p.ngc:1:6: there is no subprogram O7 behind this line; those of other files are not read");
         CHECK(run("M98 P1\nM30\no1\nG0 X1", programs) ==
               "p.ngc:3:1: the subprogram that begins here has no M99 at its end");
-        CHECK(run("o1\nG0 X1\nM99", programs).find("p.ngc:3:1: M99 ends a subprogram that M98 has called") == 0);
         CHECK(run("M98 P1\nM30\no1\nM98 P1\nM99", programs) == "p.ngc:4:6: calls are nested more than 30 deep");
         CHECK(run("M98 P1\nM30\no1\no3 return\nM99", programs) == "p.ngc:4:2: return stands in a subprogram");
         CHECK(run("o1 call\nM30\no1 sub\nM99\no1 endsub", programs).find("p.ngc:4:1: M99 ends a subprogram") == 0);
@@ -351,5 +350,30 @@ TEST_CASE("What is wrong with calls is collected, and the program goes on") {
               "p.ngc:1:6: there is no subprogram O5 behind this line; those of other files are not read",
               "p.ngc:8:2: o1 has no begin",
               "p.ngc:9:6: there is no subprogram O7 behind this line; those of other files are not read",
-              "p.ngc:4:1: M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it"});
+              "p.ngc:4:1: M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first"});
+}
+
+TEST_CASE("M99 ends a main program, which controls would begin again") {
+    for (const NumberedPrograms programs : {NumberedPrograms::linuxcnc, NumberedPrograms::fanuc}) {
+        CHECK(run("o1\nG0 X1\nM99", programs) == " 1 end");
+        CHECK(run("o1\nG0 X1\nM98 P2\nX3\nM99\nO2\nX2\nM99", programs) == " 1 2 3 end");
+        CHECK(run("G0 X1\no5 if [1]\nX2\nM99\no5 endif\nX3", programs) == " 1 2 end");
+        CHECK(run("G0 X1\nM99\nX3\n%", programs) == " 1 end");
+        // A subprogram that stands before the main program is none.
+        CHECK(run("O2\nG0 X1\nM99\nO1\nX5\nM98 P2\nN9 M 0 2", programs).find("p.ngc:3:1: M99 ends a sub") == 0);
+        CHECK(run("M99 P5\nM30", programs).find("p.ngc:1:6: M99 P, which goes on") == 0);
+    }
+    CHECK(run("G0 X1 M99", NumberedPrograms::fanuc) == " 1 end");
+    CHECK(run("G0 X1\n(M30)\n/M99\n; M2", NumberedPrograms::fanuc) == " 1 end");
+}
+
+TEST_CASE("M97 calls lines by their number, up to M99") {
+    const auto fanuc = NumberedPrograms::fanuc;
+    CHECK(run("G91 G0 X1\nM97 P100 L2\nX5\nM30\nN0100 X10\nX20\nM99\nN200 X50\nM99", fanuc) == " 1 11 31 41 61 66 end");
+    CHECK(run("G91 G0 X1 M97 P7\nM97 P7\nM30\nN7 X2 M99", fanuc) == " 1 3 5 end");
+    CHECK(run("G91 M98 P3\nM30\nO3\nG0 X1 M97 P9\nM99\nN9 X4\nM99", fanuc) == " 1 5 end");
+    CHECK(run("N5 G0 X1\nM97 P5\nM30", fanuc) == "p.ngc:2:6: there is no line N5 behind this one");
+    CHECK(run("M97 L2", fanuc).find("p.ngc:1:1: M97 needs P") == 0);
+    CHECK(run("M97 P1\nM30\nN1 G0 X1", fanuc).find("has no M99 at its end") != std::string::npos);
+    CHECK(run("M97 P5\nN5 M99", NumberedPrograms::linuxcnc).find("error") != std::string::npos);
 }

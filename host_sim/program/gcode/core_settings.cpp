@@ -33,20 +33,6 @@ ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* too
     return out;
 }
 
-std::string_view without_long_comment(std::string_view text, std::size_t longest) {
-    if (text.size() <= longest) {
-        return text;
-    }
-    bool inside = false;
-    for (std::size_t i = 0; i <= longest; ++i) { // a line may end where the comment begins
-        inside = text[i] == '(' || (inside && text[i] != ')');
-        if (text[i] == ';' && !inside) {
-            return text.substr(0, i);
-        }
-    }
-    return text;
-}
-
 // Words that --ignore names lead nowhere: the interpreter refuses them.
 FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant) {
     const auto ignores = [&](std::int16_t first, std::int16_t last) {
@@ -58,7 +44,7 @@ FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant)
     const NumberedPrograms of = linuxcnc                             ? NumberedPrograms::linuxcnc
                                 : settings.dialect == Dialect::fanuc ? NumberedPrograms::fanuc
                                                                      : NumberedPrograms::none;
-    return {ignores(980, 990) ? NumberedPrograms::none : of, settings.block_delete, linuxcnc && !ignores(700, 730),
+    return {ignores(970, 990) ? NumberedPrograms::none : of, settings.block_delete, linuxcnc && !ignores(700, 730),
             &coolant, settings.axes};
 }
 

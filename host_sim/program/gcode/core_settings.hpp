@@ -5,8 +5,6 @@
 #include "host_sim/program/gcode/flow_code.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 
-#include <string_view>
-
 namespace splinefeed::host {
 
 /// @param from  must outlive the interpreter
@@ -15,9 +13,5 @@ namespace splinefeed::host {
 
 /// What leads from line to line in it. @param coolant  must outlive whoever follows it
 [[nodiscard]] FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant);
-
-/// A line may have a comment that is longer than a line of the interpreter: slicers write their settings that way.
-/// @param longest  characters of a line without it
-[[nodiscard]] std::string_view without_long_comment(std::string_view text, std::size_t longest);
 
 } // namespace splinefeed::host

@@ -206,6 +206,7 @@ void FlowBlock::link_word(std::size_t line) {
     case FlowKind::call:
     case FlowKind::program:
     case FlowKind::call_program:
+    case FlowKind::call_lines:
     case FlowKind::end_program:
     case FlowKind::save_modes:
     case FlowKind::forget_modes:

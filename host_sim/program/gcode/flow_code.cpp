@@ -37,11 +37,15 @@ struct Code {
 };
 
 constexpr Code codes[] = {
-    {"98", FlowKind::call_program}, {"99", FlowKind::end_program},   {"70", FlowKind::save_modes},
-    {"71", FlowKind::forget_modes}, {"72", FlowKind::restore_modes}, {"73", FlowKind::lend_modes},
+    {"97", FlowKind::call_lines}, {"98", FlowKind::call_program}, {"99", FlowKind::end_program},
+    {"70", FlowKind::save_modes}, {"71", FlowKind::forget_modes}, {"72", FlowKind::restore_modes},
+    {"73", FlowKind::lend_modes},
 };
 
 bool has_code(const FlowRules& rules, FlowKind kind) noexcept {
+    if (kind == FlowKind::call_lines) {
+        return rules.programs == NumberedPrograms::fanuc;
+    }
     const bool of_programs = kind == FlowKind::call_program || kind == FlowKind::end_program;
     return of_programs ? rules.programs != NumberedPrograms::none : rules.saves_modes;
 }
@@ -74,6 +78,20 @@ bool may_have_code(std::string_view text, const FlowRules& rules) noexcept {
 
 } // namespace
 
+bool has_program_end(std::string_view text) {
+    for (TextCursor cursor(text); !cursor.at_end() && cursor.peek() != ';';) {
+        const Part part = next_part(cursor);
+        TextCursor number(text.substr(0, part.end));
+        number.go_to(part.number);
+        while (part.letter == 'm' && number.take('0')) {
+        }
+        if (part.letter == 'm' && (number.take("30") || number.take("2")) && number.at_end()) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::optional<FlowWord> read_flow_code(std::string_view text, const FlowRules& rules) {
     TextCursor cursor(text);
     if (!may_have_code(text, rules) || (cursor.take('/') && rules.block_delete)) {
@@ -87,7 +105,7 @@ std::optional<FlowWord> read_flow_code(std::string_view text, const FlowRules& r
     };
     while (!cursor.at_end() && cursor.peek() != ';') {
         const Part part = next_part(cursor);
-        const bool in_call = out && out->kind == FlowKind::call_program;
+        const bool in_call = out && (out->kind == FlowKind::call_program || out->kind == FlowKind::call_lines);
         TextCursor number(text);
         number.go_to(part.number);
         if (const Code* const code = part.letter == 'm' ? code_at(number, rules) : nullptr; code != nullptr && !out) {

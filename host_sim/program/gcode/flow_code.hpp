@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// flow_code: M words that belong to subprograms: M98 and M99 of numbered ones, M70 to M73 of saved modes.
+// flow_code: M words that belong to subprograms: M97 to M99 of numbered ones, M70 to M73 of saved modes.
 #pragma once
 
 #include "host_sim/program/gcode/flow_word.hpp"
@@ -11,7 +11,7 @@ namespace splinefeed::host {
 enum class NumberedPrograms : std::uint8_t {
     none,     ///< M98 and M99 are words of no meaning
     linuxcnc, ///< they stand alone in their line
-    fanuc,    ///< other words of the line are executed before; P30012 is three times O12
+    fanuc,    ///< other words of the line are executed before; P30012 is three times O12; there is M97, too
 };
 
 struct FlowRules {
@@ -21,6 +21,9 @@ struct FlowRules {
     const CoolantState* coolant = nullptr; ///< where the program is; null: nobody knows, it is off
     std::vector<std::string> axes{};       ///< of the machine: x, y, z, ...
 };
+
+/// Whether the line has M2 or M30.
+[[nodiscard]] bool has_program_end(std::string_view text);
 
 /// Such a word of a line. Nothing: it has none, or is left out. Cost: a search for an M in the line.
 [[nodiscard]] std::optional<FlowWord> read_flow_code(std::string_view text, const FlowRules& rules);

@@ -27,6 +27,7 @@ enum class FlowKind : std::uint8_t {
     continue_,
     program,       ///< O1000 alone: a numbered program begins
     call_program,  ///< M98
+    call_lines,    ///< M97: lines from an N number on
     end_program,   ///< M99
     save_modes,    ///< M70
     forget_modes,  ///< M71
@@ -54,6 +55,12 @@ void skip_value(TextCursor& text) noexcept;
 
 /// The label of a numbered program: no label of an O word is equal.
 [[nodiscard]] std::string program_label(std::string_view number);
+
+/// The label of the lines that M97 calls.
+[[nodiscard]] std::string lines_label(std::string_view number);
+
+/// The N number that a line begins with, without zeros in front. Empty: none.
+[[nodiscard]] std::string line_number_of(std::string_view text);
 
 /// The word. Nothing: it has no label or no known keyword; `wrong` is where.
 [[nodiscard]] std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong);

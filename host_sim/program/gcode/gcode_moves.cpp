@@ -10,6 +10,7 @@
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_items.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
+#include "host_sim/program/gcode/short_line.hpp"
 #include "host_sim/program/kept_line.hpp"
 #include "host_sim/program/left_out_list.hpp"
 #include "host_sim/program/line_filter.hpp"
@@ -149,22 +150,18 @@ private:
         if (is_left_out()) {
             return;
         }
-        const std::string_view text = without_long_comment(line_.text, BlockInterpreter::longest_line);
-        const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
+        short_.take(line_.text, rules_of(settings_->dialect).open_comments, BlockInterpreter::longest_line);
+        BlockStatus status = interpreter_.push(short_.text(), static_cast<std::uint32_t>(line_.number));
+        const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
+        status.column = static_cast<std::uint16_t>(status.column > 0 ? short_.place(at) + 1 : 0);
         if (status.error == ProgramError::program_aborted) {
             aborted_ = true;
-            report({file_, line_.number, std::uint64_t{status.column},
-                    fmt::format("the program ends itself by (ABORT,{})", comment_from(text, status.column))});
+            report({file_, line_.number, std::uint64_t{short_.comment_place(at)} + 1,
+                    fmt::format("the program ends itself by (ABORT,{})", short_.comment(at))});
         } else if (!status.ok()) {
-            report_block(status, text);
+            report_block(status, line_.text);
             interpreter_.obey_refused();
         }
-    }
-
-    /// The text of a comment from a column on.
-    [[nodiscard]] static std::string_view comment_from(std::string_view text, std::uint16_t column) noexcept {
-        const std::string_view rest = text.substr(std::min<std::size_t>(column - 1U, text.size()));
-        return rest.substr(0, rest.find(')'));
     }
 
     void end_input() {
@@ -268,7 +265,9 @@ private:
         out.action.kind = event.kind;
         out.action.number = event.number;
         out.action.value = number_of(event.value);
-        out.action.text.assign(event.text.of(line_.text));
+        const bool is_comment =
+            event.kind == EventKind::message || event.kind == EventKind::print || event.kind == EventKind::debug;
+        out.action.text.assign(is_comment ? short_.comment(event.text.begin) : event.text.of(short_.text()));
         out.action.spindle.reset();
         note_coolant(event.kind);
         if (ProgramSpindle::is_of(event.kind)) {
@@ -372,6 +371,7 @@ private:
     CoolantState coolant_;
     ProgramFlow flow_;
     SourceLine line_;
+    ShortLine short_;
     ProgramItem<double> item_;
     LineHistory history_;
     ProgramSpindle spindle_;

@@ -162,7 +162,8 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     case FlowKind::endif:
     case FlowKind::program: // another one goes on in it
     case FlowKind::do_: break;
-    case FlowKind::call_program: execute_program_call(place.word, line); break;
+    case FlowKind::call_program:
+    case FlowKind::call_lines: execute_program_call(place.word, line); break;
     case FlowKind::end_program: leave_program(place.word, line); break;
     case FlowKind::save_modes:
     case FlowKind::forget_modes:
@@ -215,6 +216,7 @@ void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
     case FlowKind::repeat: frames_.back().repeats.push_back({place.begin, 1}); break;
     case FlowKind::call: // calls that go on for ever
     case FlowKind::call_program:
+    case FlowKind::call_lines:
         if (frames_.size() >= deepest) {
             abandon();
         }

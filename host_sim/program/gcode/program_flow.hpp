@@ -71,6 +71,7 @@ private:
         Call call = Call::none;
         std::vector<Repeat> repeats{}; // those around `at`
         std::int64_t more = 0;         // times that the program is to run again
+        std::size_t first = 1;         // its first line: behind its O word, or that of M97
         std::optional<SavedModes> modes{};
         bool lends = false; // the modes are put back at its end
     };
@@ -129,6 +130,7 @@ private:
     // Subprograms: program_flow_calls.cpp.
     void execute_program_call(const FlowWord& word, const SourceLine& line);
     void leave_program(const FlowWord& word, const SourceLine& line);
+    [[nodiscard]] std::size_t lines_end(std::size_t begin) const;
     void leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text);
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_sub(const std::string& label);
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_ahead(const std::string& label);

@@ -54,10 +54,13 @@ void ProgramFlow::leave_to(Call call, const FlowWord& word, const SourceLine& li
     }
 }
 
-// M98: the number of the program, and how often. #1 to #30 stay those of the caller.
+// M98: the number of the program, and how often. #1 to #30 stay those of the caller. M97: of a line.
 void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& line) {
+    const bool of_lines = word.kind == FlowKind::call_lines;
     if (!word.has_number) {
-        fail(line, word.label_at, "M98 needs P, the number of the subprogram: M98 P1000, and L for how often");
+        fail(line, word.label_at,
+             of_lines ? "M97 needs P, the N number of the first line: M97 P1000, and L for how often"
+                      : "M98 needs P, the number of the subprogram: M98 P1000, and L for how often");
     }
     if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
         fail(line, word.label_at, "M98 stands alone in its line, with P and L");
@@ -65,19 +68,24 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
     std::string number = label_of(word, line);
     std::size_t at = word.rest;
     std::int64_t times = at > 0 ? value(line.text, at, line).raw / Decimal::one : 1;
-    auto code = find_sub(program_label(number));
-    if (code == nullptr && !lost_.contains(program_label(number)) && wait_for_input(word, line)) {
+    const auto label = of_lines ? lines_label : program_label;
+    auto code = find_sub(label(number));
+    if (code == nullptr && !lost_.contains(label(number)) && wait_for_input(word, line)) {
         return;
     }
     constexpr std::size_t digits = 4; // of a number; those before say how often
-    if (code == nullptr && rules_.programs == NumberedPrograms::fanuc && at == 0 && number.size() > digits) {
+    if (code == nullptr && !of_lines && rules_.programs == NumberedPrograms::fanuc && at == 0 &&
+        number.size() > digits) {
         times = std::stoll(number.substr(0, number.size() - digits));
         number.erase(0, number.size() - digits);
         number.erase(0, std::min(number.find_first_not_of('0'), digits - 1));
         code = find_sub(program_label(number));
     }
-    if (code == nullptr && lost_.contains(program_label(number))) {
+    if (code == nullptr && lost_.contains(label(number))) {
         return;
+    }
+    if (code == nullptr && of_lines) {
+        fail(line, word.label_at, "there is no line N{} behind this one", number);
     }
     if (code == nullptr) {
         fail(line, word.label_at, "there is no subprogram O{} behind this line; those of other files are not read",
@@ -87,7 +95,8 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
         fail(line, word.label_at, "calls are nested more than {} deep", deepest);
     }
     if (times > 0) {
-        frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
+        const std::size_t first = of_lines ? 0 : 1;
+        frames_.push_back({.code = code, .at = first, .call = Call::program, .more = times - 1, .first = first});
     }
 }
 
@@ -99,6 +108,20 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     if (word.has_number) {
         fail(line, word.label_at, "M99 P, which goes on at another line of the caller, is not supported");
     }
+    const bool called = std::ranges::any_of(frames_, [](const Frame& frame) { return frame.call != Call::none; });
+    if (!called) { // controls begin the program again
+        if (wait_for_input(word, line)) {
+            return;
+        }
+        const auto rest = std::ranges::subrange(ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_at_), ahead_.end());
+        if (std::ranges::any_of(rest, [](const SourceLine& later) { return has_program_end(later.text); })) {
+            fail(line, word.label_at,
+                 "M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first");
+        }
+        abandon();
+        restoring_.push_back({"M30", line.number});
+        return;
+    }
     leave_to(Call::program, word, line,
              "M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it");
     Frame& frame = frames_.back();
@@ -107,7 +130,7 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
         return;
     }
     --frame.more;
-    frame.at = 1;
+    frame.at = frame.first;
     frame.repeats.clear();
 }
 
@@ -122,10 +145,13 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
     for (std::size_t i = ahead_at_; i < ahead_.size(); ++i) {
         std::size_t wrong = 0;
         const auto word = has_flow_word(ahead_[i].text) ? read_flow_word(ahead_[i].text, wrong) : std::nullopt;
-        if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
+        const bool is_line = label.front() == 'N' && label == lines_label(line_number_of(ahead_[i].text));
+        const bool is_program =
+            word && word->label == label && (word->kind == FlowKind::sub || word->kind == FlowKind::program);
+        if (!is_line && !is_program) {
             continue;
         }
-        const std::size_t end = end_ahead(i, *word);
+        const std::size_t end = is_line ? lines_end(i) : end_ahead(i, *word);
         if (kept_ + (end - i) >= most_lines) {
             fail(ahead_[i], 0, "subprograms and loops have more than {} lines", most_lines);
         }
@@ -164,6 +190,17 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std
     }
     static_cast<void>(rest->link());
     return rest;
+}
+
+// Behind the M99 of lines that M97 calls.
+std::size_t ProgramFlow::lines_end(std::size_t begin) const {
+    for (std::size_t i = begin; i < ahead_.size(); ++i) {
+        const auto code = read_flow_code(ahead_[i].text, rules_);
+        if (code && code->kind == FlowKind::end_program) {
+            return i + 1;
+        }
+    }
+    return ahead_.size();
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
@@ -207,8 +244,9 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
     const Waiting call = *std::exchange(waits_, std::nullopt);
     out = call.line;
     try {
-        call.word.kind == FlowKind::call ? execute_call(call.word, call.line)
-                                         : execute_program_call(call.word, call.line);
+        call.word.kind == FlowKind::call          ? execute_call(call.word, call.line)
+        : call.word.kind == FlowKind::end_program ? leave_program(call.word, call.line)
+                                                  : execute_program_call(call.word, call.line);
     } catch (const WordError& error) {
         report(error, out.number);
     }

@@ -23,7 +23,8 @@ void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
         block_depth_ = 1;
         break;
     case FlowKind::call: execute_call(word, line); break;
-    case FlowKind::call_program: execute_program_call(word, line); break;
+    case FlowKind::call_program:
+    case FlowKind::call_lines: execute_program_call(word, line); break;
     case FlowKind::end_program: leave_program(word, line); break;
     case FlowKind::program: break; // its name
     case FlowKind::save_modes:
