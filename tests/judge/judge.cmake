@@ -19,3 +19,4 @@ foreach(program path61.csv circle720.csv butterfly.json uneven known known_witho
     judge_test(judge_gates_${name} gates.py $<TARGET_FILE:splinefeed_tool> ${program})
 endforeach()
 judge_test(judge_fixed_to_double fixed_to_double.py $<TARGET_FILE:splinefeed_tool>)
+judge_test(judge_other_meaning other_meaning.py $<TARGET_FILE:splinefeed_tool>)

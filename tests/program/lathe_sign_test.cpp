@@ -31,6 +31,8 @@ TEST_CASE("a lathe's words refuse a program that is read as a mill's", "[program
         {"", "T0101", 1},
         {"", "N5 T1212", 4},
         {"", "T0200", 1},
+        {"", "T0100", 1},
+        {"", "T1010 M6", 0},
         {"", "T0101 M6", 0},
         {"", "T1001", 0},
         {"", "T0012", 0},
@@ -40,7 +42,6 @@ TEST_CASE("a lathe's words refuse a program that is read as a mill's", "[program
         {"G0 X0", "G50 X200. Z100.", 1},
         {"", "G0 G17 G40 G49 G50 G80 G90", 0},
         {"", "G50 G69", 0},
-        {"", "G92 S2000", 1},
         {"", "G92 X10 Y5 Z1", 0},
         {"G0 X42 Z2", "G92 X40. Z-20. F1.5", 1},
         {"G0 X42 Z2", "G90 X38. Z-20. F0.2", 1},
@@ -57,9 +58,6 @@ TEST_CASE("a lathe's words refuse a program that is read as a mill's", "[program
         {"G99 G93", "G1 X5 F0.2", 0},
         {"G98", "G1 X5 F0.2", 0},
         {"", "G99 G81 X1 Z-1 R1 F1.5", 0},
-        {"", "G73 U5 R3", 1},
-        {"", "G73 P10 Q20 U0.4 W0.2 F0.3", 1},
-        {"", "G74 R1", 1},
         {"F60", "G73 X1 Z-5 R1 Q2", 0},
     };
     for (const Case& test : cases) {
@@ -83,5 +81,16 @@ TEST_CASE("in other dialects a cycle is a lathe's behind a tool with its offset"
         for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
             check(dialect, test);
         }
+    }
+}
+
+TEST_CASE("cycles of lathes that a mill has not are refused without a sign", "[program][lathe]") {
+    for (const char* const line : {"G92 S2000", "G71 U2 R1", "G73 U5 R3", "G73 P10 Q20 U0.4 W0.2 F0.3", "G74 R1",
+                                   "G74 Z-50 Q5000 F0.1", "G75 X1 Z2 P3 Q4", "G96 S200", "G32 Z-5 F1"}) {
+        ProgramSettings settings;
+        settings.dialect = Dialect::fanuc;
+        GcodeRun<double> run(settings);
+        CAPTURE(line);
+        CHECK_FALSE(run.push(line).ok());
     }
 }

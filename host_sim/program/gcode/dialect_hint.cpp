@@ -80,6 +80,28 @@ constexpr std::pair<ProgramError, std::string_view> helping_options[] = {
     {ProgramError::grbl_command_unsupported, "; --ignore $* leaves all of them out"},
 };
 
+// In the place of the core's, which a firmware has to hold.
+constexpr std::pair<ProgramError, std::string_view> full_sentences[] = {
+    {ProgramError::lathe_word, "it is a lathe's: T0101, G50 S, G99 with a small F, G90, G92 or G94 as a cycle; read as "
+                               "a mill's, the program would move elsewhere"},
+    {ProgramError::coordinates_unsupported,
+     "it turns, scales, mirrors or shifts coordinates, which is not supported; let the post write plain moves"},
+    {ProgramError::macro_unsupported, "calls of macros and jumps are not supported; use subprograms, O words or M98"},
+    {ProgramError::printer_flow_unsupported, "loops, macros, other files and ends of a print are not supported"},
+    {ProgramError::pocket_unsupported, "circular pockets are not supported; program them as arcs"},
+    {ProgramError::ignored_word_counts,
+     "what changes the path, its place or the order of the blocks is never left out; take the word out of the list"},
+};
+
+std::string_view full_sentence(ProgramError error) {
+    for (const auto& [refused, text] : full_sentences) {
+        if (refused == error) {
+            return text;
+        }
+    }
+    return describe(error);
+}
+
 /// Why --ignore does not take the word, where it would be advised or was tried. Empty: it does.
 std::string kept_advice(std::string_view text, ProgramError error, const GcodeSettings& settings) {
     const std::optional<CodeWord> code = code_of(text);
@@ -149,7 +171,7 @@ std::string refusal_sentence(std::string_view text, ProgramError error, const Gc
         return std::string(hint);
     }
     const std::string kept = kept_advice(text, error, settings);
-    return std::string(describe(error)).append(kept.empty() ? option_advice(error) : kept);
+    return std::string(full_sentence(error)).append(kept.empty() ? option_advice(error) : kept);
 }
 
 } // namespace splinefeed::host

@@ -218,12 +218,13 @@ constexpr std::uint8_t bit_of(Dialect dialect) noexcept {
 template <std::size_t n, std::size_t more>
 CodeInfo find(const Row (&rows)[n], const Row (&extras)[more], std::int32_t code, std::int32_t step, Dialect dialect,
               CodeEffect of_unknown) noexcept {
-    for (const Row& row : extras) {
-        if ((row.dialects & bit_of(dialect)) != 0 && is_within(row, code, step)) {
+    const std::uint8_t bit = bit_of(dialect);
+    for (std::size_t i = 0; bit != 0 && i < more; ++i) { // LinuxCNC has none
+        if (const Row& row = extras[i]; (row.dialects & bit) != 0 && is_within(row, code, step)) {
             return {row.group, row.refusal, effect_of(row)};
         }
     }
-    const std::uint8_t needed = dialect == Dialect::klipper ? in_marlin : bit_of(dialect) & in_both;
+    const std::uint8_t needed = dialect == Dialect::klipper ? in_marlin : bit & in_both;
     for (const Row& row : rows) {
         if (is_within(row, code, step)) {
             const bool known = (row.dialects & needed) == needed || row.refusal != ProgramError::none;

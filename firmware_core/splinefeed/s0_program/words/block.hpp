@@ -18,7 +18,7 @@ public:
 
     void clear() noexcept {
         present_ = steps_ = whole_ = 0;
-        has_left_out_ = has_long_tool_ = has_dwell_point_ = false;
+        has_left_out_ = has_padded_tool_ = has_dwell_point_ = false;
         codes_.fill(no_code);
         comment_ = CommentKind::none;
         text_ = {};
@@ -49,9 +49,9 @@ public:
     [[nodiscard]] bool is_whole(char letter) const noexcept { return (whole_ & letter_bit(letter)) != 0; }
     /// P has one.
     [[nodiscard]] bool has_dwell_point() const noexcept { return has_dwell_point_ && has('p'); }
-    /// T was written with four digits.
-    void set_long_tool() noexcept { has_long_tool_ = true; }
-    [[nodiscard]] bool has_long_tool() const noexcept { return has_long_tool_ && has('t'); }
+    /// T begins with a 0.
+    void set_padded_tool() noexcept { has_padded_tool_ = true; }
+    [[nodiscard]] bool has_padded_tool() const noexcept { return has_padded_tool_; }
     /// A G or M word of the block was left out: letters that no other word uses were its own.
     void set_left_out() noexcept { has_left_out_ = true; }
     [[nodiscard]] bool has_left_out() const noexcept { return has_left_out_; }
@@ -114,7 +114,7 @@ private:
     std::uint32_t steps_ = 0;
     std::uint32_t whole_ = 0;
     bool has_left_out_ = false;
-    bool has_long_tool_ = false;
+    bool has_padded_tool_ = false;
     bool has_dwell_point_ = false;
     CommentKind comment_ = CommentKind::none;
     std::array<Decimal, 28> values_{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/words/block_reader.hpp"
 #include "splinefeed/s0_program/text/decimal_text.hpp"
-#include "splinefeed/s0_program/words/axis_letters.hpp"
+#include "splinefeed/s0_program/words/line_checksum.hpp"
 #include "splinefeed/s0_program/words/modal_state.hpp"
 #include "splinefeed/s0_program/words/program_comment.hpp"
 
@@ -35,18 +35,17 @@ constexpr bool is_exponent(const TextCursor& text) noexcept {
 
 } // namespace
 
-bool BlockReader::has_axes(const Block& block) const noexcept {
+std::uint32_t BlockReader::axes() const noexcept {
+    std::uint32_t all = 0;
     for (int k = 0; k < settings_->axes; ++k) {
-        if (block.has(lower_case(settings_->letters[static_cast<unsigned>(k)]))) {
-            return true;
-        }
+        all |= Block::letter_bit(lower_case(settings_->letters[static_cast<unsigned>(k)]));
     }
-    return false;
+    return all;
 }
 
 // Whether the block does something besides the word that is ignored.
 bool BlockReader::has_others(const Block& block) const noexcept {
-    return has_axes(block) || block.has_codes();
+    return block.has_any(axes()) || block.has_codes();
 }
 
 // The words of codes that are left out go with them, if no other word takes them.
@@ -93,14 +92,14 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         read_rest(cursor, control, out);
     }
     const std::int16_t modeless = out.code(CodeGroup::non_modal);
-    out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & AxisLetters(*settings_).bits() : 0U)); // G28 X W
-    if (modeless == 280 && rules_->g28_homes) { // how it homes is the printer's
-        out.keep(AxisLetters(*settings_).bits() | Block::letter_bit('n'));
+    out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & axes() : 0U)); // G28 X W
+    if (modeless == 280 && rules_->g28_homes) {                                   // how it homes is the printer's
+        out.keep(axes() | Block::letter_bit('n'));
     }
     leave_axes_out(out);
     // A printer's G92 E0 without E, and G28 A0 without A: no other axis is meant.
     const bool is_of_axes = modeless == 300 || modeless == 920 || (modeless == 280 && !rules_->g28_homes);
-    const bool no_shift = left_out_.axis && !has_axes(out) && is_of_axes;
+    const bool no_shift = left_out_.axis && !out.has_any(axes()) && is_of_axes;
     // The words of a code that is left out are not another code's, whatever they are.
     if (left_out_.command || no_shift || (left_out_.code && !has_others(out))) {
         kind = LineKind::left_out;
@@ -251,7 +250,7 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         }
         return status;
     }
-    if (find_ignored(upper_case(letter), value) != Ignored::no) {
+    if (find_ignored(upper_case(letter), value) != Ignored::no && !is_taken(letter, value, out)) {
         if (!may_leave_out(letter)) {
             text = word;
             return ProgramError::ignored_word_counts;
@@ -267,9 +266,9 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
     out.set(letter, value, column);
     if (first != '#' && first != '[') {
         out.set_point(letter, std::ranges::count(as_it_stands, '.') > 0);
-        if (letter == 't' && std::ranges::count_if(as_it_stands, is_part_of_number) == 4) {
-            out.set_long_tool();
-        }
+    }
+    if (letter == 't' && first == '0') {
+        out.set_padded_tool();
     }
     return {};
 }
@@ -354,24 +353,6 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
     return {};
 }
 
-// "*71": the exclusive or of all characters before it.
-ProgramStatus BlockReader::read_checksum(TextCursor& text) noexcept {
-    unsigned sum = 0;
-    for (const char c : text.part(0, text.at())) {
-        sum ^= static_cast<unsigned char>(c);
-    }
-    const TextCursor start = text;
-    text.step();
-    Decimal stated;
-    std::int32_t number = 0;
-    const ProgramStatus status = read_decimal(text, stated);
-    if (!status.ok() || !to_integer(stated, number) || number != static_cast<std::int32_t>(sum)) {
-        text = start;
-        return ProgramError::checksum_wrong;
-    }
-    return text.at_end() || text.peek() == ';' ? ProgramStatus{} : ProgramStatus(ProgramError::character_invalid);
-}
-
 BlockReader::Ignored BlockReader::find_ignored(char letter, Decimal value) const noexcept {
     Ignored out = Ignored::no;
     for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
@@ -388,11 +369,23 @@ BlockReader::Ignored BlockReader::find_ignored(char letter, Decimal value) const
     return out;
 }
 
+// Whether it is more than a speed, a tool or an axis: a word before it takes the letter, or T names an offset, too.
+bool BlockReader::is_taken(char letter, Decimal value, const Block& out) const noexcept {
+    switch (letter) {
+    case 's':
+        return rules_->mills_only ? out.code(CodeGroup::without_effect) == 500
+                                  : rules_->dwell_speed && out.code(CodeGroup::non_modal) == 40;
+    case 't': return rules_->mills_only && value >= Decimal::from_integer(100);
+    case 'e': return out.code(CodeGroup::motion) == 760 || out.has(CodeGroup::input_output);
+    default: return false;
+    }
+}
+
 // Of words that are no codes: those of the machine, and axes that it does not have.
 bool BlockReader::may_leave_out(char letter) const noexcept {
     const std::uint32_t bit = Block::letter_bit(letter);
     const std::uint32_t steps = rules_->uvw_steps ? Block::bits("uvw") : 0U;
-    const std::uint32_t others = axis_letters & ~steps & ~AxisLetters(*settings_).bits();
+    const std::uint32_t others = axis_letters & ~steps & ~axes();
     return ((Block::bits("nst") | others) & bit) != 0;
 }
 

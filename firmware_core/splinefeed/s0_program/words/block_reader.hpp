@@ -39,13 +39,13 @@ private:
     void leave_axes_out(Block& out) const noexcept;
     ProgramStatus read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
     ProgramStatus read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
-    static ProgramStatus read_checksum(TextCursor& text) noexcept;
     ProgramStatus add_code(char letter, Decimal value, std::size_t column, Block& out, bool& left_out) noexcept;
     void note(std::string_view word) const noexcept;
-    [[nodiscard]] bool has_axes(const Block& block) const noexcept;
+    [[nodiscard]] std::uint32_t axes() const noexcept; // bits of the machine's letters
     [[nodiscard]] bool has_others(const Block& block) const noexcept;
     enum class Ignored : std::uint8_t { no, by_letter, by_name };
     [[nodiscard]] Ignored find_ignored(char letter, Decimal value) const noexcept;
+    [[nodiscard]] bool is_taken(char letter, Decimal value, const Block& out) const noexcept;
     [[nodiscard]] bool may_leave_out(char letter) const noexcept;
 
     // What the block has that is left out.

@@ -11,15 +11,6 @@ constexpr std::uint32_t turned_axes = Block::bits("xzuw");
 constexpr std::uint32_t milled_axes = Block::bits("yvabc");
 constexpr Decimal least_mill_feed = Decimal::from_integer(2); // of a mill [mm/min]; a lathe's F is 0.05 to 2 mm a turn
 
-// "G90 X38. Z-20. F0.2" behind a rapid: a mill would go there by one.
-bool is_turning_cycle(const Block& block, const ModalState& modal) noexcept {
-    const std::int16_t distance = block.code(CodeGroup::distance);
-    const std::int16_t feed = block.code(CodeGroup::feed_mode);
-    return (distance == 900 || feed == 940) && block.has('f') && block.has_any(turned_axes) &&
-           !block.has_any(milled_axes) && !block.has(CodeGroup::motion) && !block.has(CodeGroup::non_modal) &&
-           modal.motion == 0;
-}
-
 // F of G99 is the way of a turn, unless cycles are retracted by it.
 bool is_turning_feed(const Block& block, const ModalState& modal) noexcept {
     const std::int16_t motion = block.has(CodeGroup::motion) ? block.code(CodeGroup::motion) : modal.motion;
@@ -33,48 +24,42 @@ bool is_turning_feed(const Block& block, const ModalState& modal) noexcept {
 } // namespace
 
 bool has_tool_and_offset(const Block& block) noexcept {
-    constexpr std::int32_t digits = 100; // of the tool, and of the offset
+    constexpr std::int32_t offsets = 100; // and one more than the last
     std::int32_t number = 0;
-    if (!block.has_long_tool() || !to_integer(block.value('t'), number) || block.has(CodeGroup::tool_change)) {
-        return false;
-    }
-    const std::int32_t tool = number / digits;
-    return tool > 0 && (tool < 10 || number % digits == tool);
+    return block.has('t') && !block.has(CodeGroup::tool_change) && to_integer(block.value('t'), number) &&
+           number >= offsets &&
+           (block.has_padded_tool() || (number > 10 * offsets && number / offsets == number % offsets));
 }
 
 BlockStatus check_lathe(const Block& block, const ModalState& modal, const DialectRules& rules) noexcept {
-    const bool shifts = block.code(CodeGroup::non_modal) == 920 && !block.has_any(milled_axes);
-    const bool cuts = shifts && block.has('f');
-    const CodeGroup cycle = block.has(CodeGroup::distance) ? CodeGroup::distance : CodeGroup::feed_mode;
-    if (!rules.mills_only && !modal.lathe_tool) {
+    if (!rules.mills_only && !modal.lathe_tool) { // most programs
         return {};
     }
-    if (cuts && block.has_any(turned_axes)) {
-        return block.at(ProgramError::lathe_word, CodeGroup::non_modal);
+    const bool has_turned = block.has_any(turned_axes);
+    const bool has_motion = block.has(CodeGroup::motion);
+    CodeGroup sign = CodeGroup::none;
+    if (has_turned && block.has('f') && !block.has_any(milled_axes)) {
+        if (block.code(CodeGroup::non_modal) == 920) {
+            sign = CodeGroup::non_modal;
+        } else if (!has_motion && !block.has(CodeGroup::non_modal) && modal.motion == 0) { // a mill would go by a rapid
+            sign = block.code(CodeGroup::distance) == 900    ? CodeGroup::distance
+                   : block.code(CodeGroup::feed_mode) == 940 ? CodeGroup::feed_mode
+                                                             : sign;
+        }
     }
-    if (is_turning_cycle(block, modal)) {
-        return block.at(ProgramError::lathe_word, cycle);
+    if (rules.mills_only && block.code(CodeGroup::without_effect) == 500 && !has_motion &&
+        !block.has(CodeGroup::spindle) && (block.has('s') || has_turned)) {
+        sign = CodeGroup::without_effect;
+    }
+    if (sign != CodeGroup::none) {
+        return block.at(ProgramError::lathe_word, sign);
     }
     if (!rules.mills_only) {
         return {};
     }
-    const bool limits = block.code(CodeGroup::without_effect) == 500 && !block.has(CodeGroup::motion) &&
-                        !block.has(CodeGroup::spindle) && (block.has('s') || block.has_any(turned_axes));
-    if (limits) {
-        return block.at(ProgramError::lathe_word, CodeGroup::without_effect);
-    }
-    if (shifts && block.has('s') && !block.has_any(turned_axes)) {
-        return block.at(ProgramError::lathe_word, CodeGroup::non_modal);
-    }
-    if (has_tool_and_offset(block)) {
-        return block.at(ProgramError::lathe_word, 't');
-    }
-    const std::int16_t motion = block.code(CodeGroup::motion);
-    if ((motion == 730 || motion == 740) &&
-        (block.has_any(Block::bits("uw")) || !block.has_any(turned_axes | milled_axes))) {
-        return block.at(ProgramError::lathe_word, CodeGroup::motion);
-    }
-    return is_turning_feed(block, modal) ? block.at(ProgramError::lathe_word, 'f') : BlockStatus{};
+    return has_tool_and_offset(block)      ? block.at(ProgramError::lathe_word, 't')
+           : is_turning_feed(block, modal) ? block.at(ProgramError::lathe_word, 'f')
+                                           : BlockStatus{};
 }
 
 } // namespace splinefeed

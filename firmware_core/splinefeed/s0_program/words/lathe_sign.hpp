@@ -13,7 +13,7 @@ namespace splinefeed {
 /// Error: lathe_word, at the word.
 BlockStatus check_lathe(const Block& block, const ModalState& modal, const DialectRules& rules) noexcept;
 
-/// Whether T names a tool and its offset, in four digits: T0101, T0200, T1212.
+/// Whether T names a tool and its offset: T0101, T0200, T1212.
 [[nodiscard]] bool has_tool_and_offset(const Block& block) noexcept;
 
 } // namespace splinefeed

@@ -29,6 +29,11 @@ ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     return state;
 }
 
+void ModalState::set_motion(std::int16_t code, const DialectRules& rules) noexcept {
+    motion = code == no_motion && rules.cycles_apart ? before_cycle : code;
+    before_cycle = rules.cycles_apart && !is_cycle(motion) ? motion : before_cycle;
+}
+
 void ModalState::end_program(const ProgramSettings& settings) noexcept {
     plane = Plane::xy;
     incremental = false;

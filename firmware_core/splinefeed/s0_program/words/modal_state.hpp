@@ -45,10 +45,7 @@ struct ModalState {
     /// Before the first block.
     [[nodiscard]] static ModalState at_start(const ProgramSettings& settings) noexcept;
     /// A motion word is in effect; G80: the one that it leaves.
-    void set_motion(std::int16_t code, const DialectRules& rules) noexcept {
-        motion = code == no_motion && rules.cycles_apart ? before_cycle : code;
-        before_cycle = rules.cycles_apart && !is_cycle(motion) ? motion : before_cycle;
-    }
+    void set_motion(std::int16_t code, const DialectRules& rules) noexcept;
     /// What M2 and M30 leave: G1, G17, G40, G90, G94 and M5. Units, F, S and T stay.
     void end_program(const ProgramSettings& settings) noexcept;
     /// A length or a feed of the program in mm.
