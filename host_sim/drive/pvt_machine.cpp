@@ -10,6 +10,7 @@
 
 namespace splinefeed::host {
 
+using hal::modbus::comes_too_late;
 using hal::modbus::fits;
 using hal::modbus::PvtCommand;
 using hal::modbus::PvtConfiguration;
@@ -88,6 +89,9 @@ PvtRefusal PvtMachine::execute(PvtCommand command, std::uint32_t argument) {
         return PvtRefusal::none;
     case PvtCommand::start:
     case PvtCommand::resume:
+        if (comes_too_late(argument, clock_us(), configuration_.watchdog_ms)) {
+            return PvtRefusal::state;
+        }
         schedule_.start_at(time_of(argument));
         fire_events();
         return PvtRefusal::none;

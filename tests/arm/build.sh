@@ -20,10 +20,11 @@ expressions() {
 # build_images CPU BUILD_DIRECTORY
 build_images() {
     local without='' quintic_without='' scalars='double;float;Fixed' quintic_scalars='double;float;Fixed'
-    # One of the three, whose floating point unit makes it the quickest to compile for, builds all of the core; each what its images use.
+    # The one that senders operate with curves through points has all sources of the core; the others what their images use.
     if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then
         without=$(expressions tests/arm/unused_sources.txt)
         scalars='float;Fixed'
+        quintic_scalars=$scalars
         if [[ $1 != cortex-m4f ]]; then
             quintic_without=$(expressions tests/arm/unused_quintic_sources.txt)
             quintic_scalars=Fixed

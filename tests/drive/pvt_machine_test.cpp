@@ -177,7 +177,10 @@ TEST_CASE("PVT drive: watchdog, a hold that says so", "[drive][pvt]") {
     static_cast<void>(bench.feed(0, steady(1, 5, 8'000'000, 1000.0)));
     bench.wait_us(1'000'000); // standing, it may wait for ever
     CHECK(bench.state() == PvtState::standing);
-    bench.start_now();
+    CHECK(bench.command(PvtCommand::start, bench.status().clock_us - 50'000).refused ==
+          PvtRefusal::state); // too late to be watched
+    CHECK(bench.state() == PvtState::standing);
+    CHECK(bench.command(PvtCommand::start, bench.status().clock_us - 49'999).refused == PvtRefusal::none);
     for (int i = 0; i < 10; ++i) {
         bench.wait_us(40000);
         CHECK(bench.feed(5, {}).state == PvtState::running);

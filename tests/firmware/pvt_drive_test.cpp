@@ -206,6 +206,9 @@ TEST_CASE("Drive: without blocks the watchdog holds it, on the path", "[drive]")
     const std::uint32_t us = bench.run_until(PvtState::held);
     CHECK(us == Approx(200'000.0).margin(4.0 * slot_us));
     CHECK(bench.drive.fault() == PvtFault::watchdog);
+    CHECK(bench.command(PvtCommand::resume, bench.status().clock_us - 100'000).refused ==
+          PvtRefusal::state); // too late to be watched
+    CHECK(bench.drive.state() == PvtState::held);
     bench.drive.configure({.watchdog_ms = 0, .stop_reserve_ms = 50, .following_window = 0});
     bench.command(PvtCommand::resume);
     bench.run_until(PvtState::standing);

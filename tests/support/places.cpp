@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/places.hpp"
 
+#include <cstdlib>
+
 namespace splinefeed::test {
 
 std::string source_folder() {
@@ -8,7 +10,8 @@ std::string source_folder() {
 }
 
 std::string tool_path() {
-    return SPLINEFEED_TOOL;
+    const char* const named = std::getenv("SPLINEFEED_TOOL");
+    return named != nullptr ? named : SPLINEFEED_TOOL;
 }
 
 } // namespace splinefeed::test

@@ -10,7 +10,7 @@ namespace splinefeed::test {
 
 /// The repository's root, without a slash at its end.
 [[nodiscard]] std::string source_folder();
-/// The program `splinefeed` of this build.
+/// The program `splinefeed`: what the environment names as SPLINEFEED_TOOL, or that of this build.
 [[nodiscard]] std::string tool_path();
 
 } // namespace splinefeed::test

@@ -9,7 +9,7 @@ marks=build/asan/passed
 bytes() { git ls-files -z --cached --others --exclude-standard -- "$@" ':!*.cpp' ':!*.hpp' | xargs -0 sha256sum 2>/dev/null; }
 files=$(bytes ':!docs' | sha256sum)
 docs=$(bytes docs | sha256sum)
-tool=$(sha256sum <build/asan/bin/splinefeed)
+tool=$(sha256sum <"${SPLINEFEED_TOOL:-build/asan/bin/splinefeed}")
 for program in build/asan/bin/*_{tests,fuzz}; do
     name=$(basename "$program")
     area=${name%_tests}

@@ -10,6 +10,7 @@
 namespace firmware {
 
 using splinefeed::ticks_per_us;
+using splinefeed::hal::modbus::comes_too_late;
 using splinefeed::hal::modbus::fits;
 
 namespace {
@@ -37,7 +38,12 @@ PvtRefusal PvtDrive::execute(PvtCommand command, std::uint32_t argument) noexcep
         stand(PvtState::disabled);
         return PvtRefusal::none;
     case PvtCommand::start:
-    case PvtCommand::resume: start_at(argument); return PvtRefusal::none;
+    case PvtCommand::resume:
+        if (comes_too_late(argument, clock_us(), configuration_.watchdog_ms)) {
+            return PvtRefusal::state;
+        }
+        start_at(argument);
+        return PvtRefusal::none;
     case PvtCommand::hold: return hold(argument);
     case PvtCommand::quick_stop: return quick_stop();
     case PvtCommand::end: return path_.end_before(argument) ? PvtRefusal::none : PvtRefusal::state;

@@ -36,4 +36,13 @@ namespace detail {
     return (detail::states_of(command) >> static_cast<unsigned>(state) & 1U) != 0;
 }
 
+/// Whether a start or a resume comes so late that the watchdog would have run out since: the host has left, and other
+/// drives are elsewhere.
+/// @param begin_us, now_us  of the drive's clock, which wraps  @param watchdog_ms  0: there is no watchdog
+[[nodiscard]] constexpr bool comes_too_late(std::uint32_t begin_us, std::uint32_t now_us,
+                                            std::uint16_t watchdog_ms) noexcept {
+    const auto late_us = static_cast<std::int32_t>(now_us - begin_us);
+    return watchdog_ms != 0 && late_us >= std::int32_t{watchdog_ms} * 1000;
+}
+
 } // namespace splinefeed::hal::modbus
