@@ -4,11 +4,13 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/line_filter.hpp"
 
+#include "splinefeed/s0_program/dialects/dialect_rules.hpp"
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -32,6 +34,18 @@ constexpr Sign comment_signs[] = {
     {"linuxcnc", Dialect::linuxcnc, 40},
     {"emc2", Dialect::linuxcnc, 40},
     {"fanuc", Dialect::fanuc, 40},
+    {"haas", Dialect::fanuc, 40},
+    {"mach3", Dialect::linuxcnc, 10},
+    {"shapeoko", Dialect::grbl, 10},
+    {"x-carve", Dialect::grbl, 10},
+    {"easel", Dialect::grbl, 10},
+    {"carbide", Dialect::grbl, 10},
+    {"slic3r", Dialect::marlin, 20},
+    {"bambustudio", Dialect::marlin, 20},
+    {"simplify3d", Dialect::marlin, 20},
+    {"ideamaker", Dialect::marlin, 20},
+    {"kisslicer", Dialect::marlin, 20},
+    {"reprapfirmware", Dialect::marlin, 20},
     {"prusaslicer", Dialect::marlin, 20},
     {"cura_steamengine", Dialect::marlin, 20},
     {"orcaslicer", Dialect::marlin, 20},
@@ -44,17 +58,25 @@ constexpr Sign comment_signs[] = {
 
 // Words that only one of them has; each counts once a line.
 constexpr Sign word_signs[] = {
-    {"m104", Dialect::marlin, 5},  {"m109", Dialect::marlin, 5},  {"m140", Dialect::marlin, 5},
-    {"m190", Dialect::marlin, 5},  {"m106", Dialect::marlin, 5},  {"m107", Dialect::marlin, 5},
-    {"m82", Dialect::marlin, 5},   {"m83", Dialect::marlin, 5},   {"m84", Dialect::marlin, 5},
-    {"m115", Dialect::marlin, 5},  {"m117", Dialect::marlin, 5},  {"m201", Dialect::marlin, 5},
-    {"m203", Dialect::marlin, 5},  {"m204", Dialect::marlin, 5},  {"m205", Dialect::marlin, 5},
-    {"m220", Dialect::marlin, 5},  {"m221", Dialect::marlin, 5},  {"m400", Dialect::marlin, 5},
-    {"m862", Dialect::marlin, 5},  {"m900", Dialect::marlin, 5},  {"g92e", Dialect::marlin, 5},
-    {"g64", Dialect::linuxcnc, 5}, {"m66", Dialect::linuxcnc, 5}, {"m62", Dialect::linuxcnc, 5},
-    {"g15", Dialect::fanuc, 5},    {"g50", Dialect::fanuc, 5},    {"g69", Dialect::fanuc, 5},
-    {"g28u", Dialect::fanuc, 5},   {"g28w", Dialect::fanuc, 5},   {"g28v", Dialect::fanuc, 5},
+    {"m104", Dialect::marlin, 5},  {"m109", Dialect::marlin, 5},    {"m140", Dialect::marlin, 5},
+    {"m190", Dialect::marlin, 5},  {"m106", Dialect::marlin, 5},    {"m107", Dialect::marlin, 5},
+    {"m82", Dialect::marlin, 5},   {"m83", Dialect::marlin, 5},     {"m84", Dialect::marlin, 5},
+    {"m115", Dialect::marlin, 5},  {"m117", Dialect::marlin, 5},    {"m201", Dialect::marlin, 5},
+    {"m203", Dialect::marlin, 5},  {"m204", Dialect::marlin, 5},    {"m205", Dialect::marlin, 5},
+    {"m220", Dialect::marlin, 5},  {"m221", Dialect::marlin, 5},    {"m400", Dialect::marlin, 5},
+    {"m862", Dialect::marlin, 5},  {"m900", Dialect::marlin, 5},    {"g92e", Dialect::marlin, 5},
+    {"g64", Dialect::linuxcnc, 5}, {"m66", Dialect::linuxcnc, 5},   {"m62", Dialect::linuxcnc, 5},
+    {"g15", Dialect::fanuc, 5},    {"g50", Dialect::fanuc, 5},      {"g69", Dialect::fanuc, 5},
+    {"g28u", Dialect::fanuc, 5},   {"g28w", Dialect::fanuc, 5},     {"g28v", Dialect::fanuc, 5},
+    {"g154", Dialect::fanuc, 5},   {"g65", Dialect::fanuc, 5},      {"m97", Dialect::fanuc, 5},
+    {"g187", Dialect::fanuc, 5},   {"m98", Dialect::fanuc, 3},      {"m99", Dialect::fanuc, 3},
+    {"m73", Dialect::marlin, 5},   {"m486", Dialect::marlin, 5},    {"m92", Dialect::marlin, 5},
+    {"m64", Dialect::linuxcnc, 3}, {"m65", Dialect::linuxcnc, 3},   {"m67", Dialect::linuxcnc, 5},
+    {"m68", Dialect::linuxcnc, 5}, {"g33.1", Dialect::linuxcnc, 5},
 };
+
+// What a line of Fanuc's custom macro B begins with.
+constexpr std::string_view macro_b_words[] = {"if[", "while[", "goto", "do1", "do2", "do3", "end1", "end2", "end3"};
 
 bool is_figure(char c) noexcept {
     return c >= '0' && c <= '9';
@@ -79,6 +101,14 @@ bool has_word(std::string_view code, std::string_view word) noexcept {
         }
     }
     return false;
+}
+
+/// G28 X: a letter without its number.
+bool is_bare_home(std::string_view plain) noexcept {
+    const std::size_t at = plain.find("g28");
+    const std::size_t letter = at == std::string_view::npos ? at : plain.find_first_of("xyz", at);
+    return letter != std::string_view::npos &&
+           (letter + 1 == plain.size() || std::string_view("xyz").find(plain[letter + 1]) != std::string_view::npos);
 }
 
 } // namespace
@@ -107,6 +137,7 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
     if (text.empty()) {
         return;
     }
+    readings_.add(code, text, line);
     percent_ = percent_ || text == "%";
     const std::string_view macro = macro_name(code);
     if (!macro.empty() && (macro.find('_') != std::string_view::npos || is_still_macro(macro))) {
@@ -117,18 +148,30 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
         count(Dialect::grbl, 20, code, line);
         return;
     }
-    // O100 and nothing else behind a % is Fanuc's; LinuxCNC takes it, too.
+    // A number of the program, and nothing else, is Fanuc's; LinuxCNC takes it, too.
     const bool numbered = text.size() > 1 && text[0] == 'o' && std::all_of(text.begin() + 1, text.end(), is_figure);
-    if (numbered && percent_) {
-        count(Dialect::fanuc, 1, code, line);
-    } else if (text[0] == 'o' || text[0] == '#' || text.find('[') != std::string::npos) {
+    const bool macro_b =
+        std::ranges::any_of(macro_b_words, [&](std::string_view word) { return text.starts_with(word); });
+    if (numbered || macro_b) {
+        count(Dialect::fanuc, numbered && !percent_ ? 3 : 5, code, line);
+    } else if (text[0] == 'o' || text.find("#<") != std::string::npos) {
         count(Dialect::linuxcnc, 5, code, line);
+        return;
+    } else if (text[0] == '#' ||
+               text.find('[') != std::string::npos) { // LinuxCNC's, or Fanuc's where something else says so
+        count(Dialect::linuxcnc, 3, code, line);
         return;
     }
     for (const Sign& sign : word_signs) {
         if (has_word(text, sign.text)) {
             count(sign.dialect, sign.points, code, line);
         }
+    }
+    if (is_bare_home(text)) {
+        count(Dialect::marlin, 5, code, line);
+    }
+    if (has_lathe_tool(text)) {
+        count(Dialect::fanuc, 5, code, line);
     }
     const bool moves = has_word(text, "g1") || has_word(text, "g0") || has_word(text, "g01") || has_word(text, "g00");
     const std::size_t filament = code.find_first_of("eE");
@@ -158,6 +201,21 @@ void DialectGuess::add(std::string_view line, std::uint64_t number) {
 Dialect DialectGuess::dialect() const noexcept {
     const auto* const best = std::ranges::max_element(evidence_, {}, &Evidence::points);
     return best->points < enough ? Dialect::linuxcnc : static_cast<Dialect>(best - evidence_.begin());
+}
+
+std::string DialectGuess::differences(Dialect taken) const {
+    const Evidence& best = evidence_[static_cast<std::size_t>(taken)];
+    if (best.best >= named) {
+        return {};
+    }
+    std::vector<Dialect> others;
+    for (std::size_t i = 0; i < dialects; ++i) {
+        const auto other = static_cast<Dialect>(i);
+        if (other != taken && (evidence_[i].points > 0 || (best.points < enough && !rules_of(other).extruder))) {
+            others.push_back(other);
+        }
+    }
+    return readings_.differences(taken, others);
 }
 
 std::string DialectGuess::reason() const {

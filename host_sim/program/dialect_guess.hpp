@@ -2,6 +2,8 @@
 // DialectGuess: whose words a program has, by its first lines.
 #pragma once
 
+#include "host_sim/program/line_readings.hpp"
+
 #include "splinefeed/s0_program/dialects/program_settings.hpp"
 
 #include <array>
@@ -18,11 +20,15 @@ public:
     static constexpr std::uint64_t most_lines = 200;
     static constexpr std::size_t dialects = 5;
     static constexpr int enough = 5; ///< points of evidence: that of one word which is no other dialect's
+    static constexpr int named = 20; ///< those of a comment that names the controller
 
     void add(std::string_view line, std::uint64_t number);
     [[nodiscard]] Dialect dialect() const noexcept;
     /// The strongest evidence: "'M104 S200' on line 12". Empty: there is none.
     [[nodiscard]] std::string reason() const;
+    /// Lines that dialects with some evidence read otherwise than `taken`, and how; where there is too little of any,
+    /// those of all controllers of mills. Empty: there are none, or a comment names the controller.
+    [[nodiscard]] std::string differences(Dialect taken) const;
 
 private:
     struct Evidence {
@@ -37,6 +43,7 @@ private:
     void read_words(std::string_view code, std::uint64_t line);
 
     std::array<Evidence, dialects> evidence_{};
+    LineReadings readings_;
     bool percent_ = false;
 };
 

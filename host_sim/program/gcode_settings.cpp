@@ -80,8 +80,9 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
             throw UsageError("--dialect {}: it must be one of {}", in_quotes(*arguments.dialect),
                              listed(dialect_names));
         }
-        out.guess_dialect = *found == "auto";
-        out.dialect = out.guess_dialect ? Dialect::linuxcnc : static_cast<Dialect>(found - std::begin(dialect_names));
+        const bool guesses = *found == "auto";
+        out.dialect_choice = guesses ? DialectChoice::first_lines : DialectChoice::option;
+        out.dialect = guesses ? Dialect::linuxcnc : static_cast<Dialect>(found - std::begin(dialect_names));
     }
     const std::string ignored = arguments.ignore.value_or("");
     for (const std::string_view word : arguments.ignore ? split(ignored, ',') : std::vector<std::string_view>{}) {

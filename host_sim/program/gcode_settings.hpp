@@ -28,10 +28,13 @@ struct GcodeArguments {
 
 class LeftOutList;
 
+/// Who says the dialect.
+enum class DialectChoice : std::uint8_t { nobody, option, first_lines };
+
 struct GcodeSettings {
     Dialect dialect = Dialect::linuxcnc;
-    bool guess_dialect = false; ///< --dialect auto: the first lines say it
-    std::string dialect_guess;  ///< the dialect that they look like if it is another one, and why; else empty
+    DialectChoice dialect_choice = DialectChoice::nobody;
+    std::string dialect_guess; ///< the dialect that they look like if it is another one, and why; else empty
     std::vector<IgnoredWord> ignored;
     std::vector<std::string> ignored_lines; ///< by their first words; a * at the end is any rest
     bool ignores_unknown = false;           ///< words and lines that the dialect does not have

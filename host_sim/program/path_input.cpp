@@ -181,7 +181,7 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     out.lines = machine.lines;
     left_out_ = std::make_unique<LeftOutList>();
     out.left_out = left_out_.get();
-    if (out.guess_dialect && !repeatable_) {
+    if (out.dialect_choice == DialectChoice::first_lines && !repeatable_) {
         throw UsageError("--dialect auto reads the first lines before the others; name the dialect, or give it a file");
     }
     if (repeatable_) {
@@ -204,13 +204,28 @@ void PathInput::guess_dialect(GcodeSettings& out) {
     }
     const std::string reason = guess.reason();
     const Dialect looks_like = guess.dialect();
-    if (out.guess_dialect) {
+    if (out.dialect_choice == DialectChoice::first_lines) {
         out.dialect = looks_like;
         dialect_choice_ = fmt::format("--dialect {}: {}", dialect_name(looks_like),
                                       reason.empty() ? "nothing in the first 200 lines says another one" : reason);
     } else if (!reason.empty() && looks_like != out.dialect) {
         out.dialect_guess = fmt::format(" (the program looks like {}, by {})", dialect_name(looks_like), reason);
     }
+    if (out.dialect_choice == DialectChoice::first_lines ||
+        (out.dialect_choice == DialectChoice::nobody && !out.dialect_guess.empty())) {
+        dialect_doubt_ = guess.differences(out.dialect);
+    }
+}
+
+std::vector<std::string> PathInput::dialect_notes() const {
+    std::vector<std::string> out;
+    if (!dialect_choice_.empty()) {
+        out.push_back(dialect_choice_);
+    }
+    if (!dialect_doubt_.empty()) {
+        out.push_back(dialect_doubt_ + "; --dialect says whose words they are");
+    }
+    return out;
 }
 
 std::vector<LeftOutList::Entry> PathInput::left_out() const {

@@ -86,6 +86,8 @@ public:
     [[nodiscard]] std::vector<LeftOutList::Entry> left_out() const;
     /// The dialect that `--dialect auto` takes and why, one line; else empty.
     [[nodiscard]] const std::string& dialect_choice() const noexcept { return dialect_choice_; }
+    /// That choice, and lines that mean something else in another dialect where no option says whose they are.
+    [[nodiscard]] std::vector<std::string> dialect_notes() const;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
     [[nodiscard]] bool lines_within_tolerance() const noexcept {
         const auto* const waypoints = std::get_if<Waypoints>(&content_);
@@ -138,6 +140,7 @@ private:
     bool read_ahead_ = false;
     std::unique_ptr<LeftOutList> left_out_; // of a program in G-code
     std::string dialect_choice_;
+    std::string dialect_doubt_;
     Content content_; // the last one: what opens it writes the members before
 };
 

@@ -116,9 +116,8 @@ int check_program(const RunArguments& arguments) {
     Survey survey(of.machine, input.name());
     survey.read(input);
     ProgramFindings findings{survey.problems().texts(), survey.problems().count(), survey.notes(), input.left_out()};
-    if (!input.dialect_choice().empty()) {
-        findings.notes.insert(findings.notes.begin(), input.dialect_choice());
-    }
+    const std::vector<std::string> dialect = input.dialect_notes();
+    findings.notes.insert(findings.notes.begin(), dialect.begin(), dialect.end());
     if (!findings.problems.empty()) {
         if (!arguments.outputs.report.empty()) {
             write_problems(arguments, of.machine, figures.segment_ticks, input, findings);

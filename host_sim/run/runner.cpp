@@ -164,8 +164,8 @@ int conclude(const RunArguments& arguments, Summary summary, const std::string& 
 
 std::vector<std::string> path_notes(const PathInput& input, std::string_view mark) {
     std::vector<std::string> out;
-    if (!input.dialect_choice().empty()) {
-        out.push_back(fmt::format("{}: {}", printable(input.name()), printable(input.dialect_choice())));
+    for (const std::string& note : input.dialect_notes()) {
+        out.push_back(fmt::format("{}: {}", printable(input.name()), printable(note)));
     }
     if (input.segments() != nullptr) {
         for (const std::string& warning : input.segments()->warnings) {

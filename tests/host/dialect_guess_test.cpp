@@ -38,14 +38,37 @@ TEST_CASE("Words that one controller alone has decide") {
     CHECK(guess("START_PRINT\nM104 S1").dialect() == Dialect::klipper);
     CHECK(guess("%\nO1000\nG0 G80 G50 G69").dialect() == Dialect::fanuc);
     CHECK(guess("%\nO1000\nG28 U0 W0").dialect() == Dialect::fanuc);
+    CHECK(guess("%\nO1000 (NAME)\nG4 P2").dialect() == Dialect::fanuc);
+    CHECK(guess("O1000\nG154 P2 X0").dialect() == Dialect::fanuc);
+    CHECK(guess("IF [#1 EQ #0] GOTO 10\n#2 = #1").dialect() == Dialect::fanuc);
+    CHECK(guess("T0101\nG0 X5").dialect() == Dialect::fanuc);
+    CHECK(guess("G28 X Y\nG1 X5").dialect() == Dialect::marlin);
+    CHECK(guess("G28\nG28 X0 Y0\nT1010\nT11 M6").dialect() == Dialect::fanuc);
     CHECK(guess("o<a> sub\no<a> endsub\nG1 X[1+2]").dialect() == Dialect::linuxcnc);
 }
 
 TEST_CASE("Without evidence it is linuxcnc") {
     for (const char* const program : {"", "G21 G90\nG1 X5 F600\nM2", "G150\nM1040", "hello world", "(E5)\nG1 X5",
-                                      "G1 X2.4e-16", "%\nO1000 (NAME)\nG4 P2"}) {
+                                      "G1 X2.4e-16", "%\nG4 P2\n%", "O1000\nG1 X5", "G28 X0\nT1 M6\nT12345"}) {
         CAPTURE(program);
         CHECK(guess(program).dialect() == Dialect::linuxcnc);
         CHECK(guess(program).reason().empty());
     }
+}
+
+TEST_CASE("Where little says whose a program is, lines that others read otherwise are told") {
+    const auto told = [](const std::string& program) {
+        const DialectGuess of = guess(program);
+        return of.differences(of.dialect());
+    };
+    CHECK(told("G21\nG4 P500") == "'G4 P500' on line 2 waits 500 s, in fanuc it waits 0.5 s");
+    CHECK(told("%\nO1\no<a> sub\nG04 P2.").empty()); // both take a point for seconds
+    CHECK(told("%\nO1\no<a> sub\nG04 P2").find("waits 2 s, in fanuc it waits 0.002 s") != std::string::npos);
+    CHECK(told("(Easel)\nM82\nG28 X0") == "'G28 X0' on line 3 goes to a stored place, in marlin it is homing");
+    CHECK(told("G1 X1 A5 F60").find("in grbl it has F along all of its axes, in fanuc") != std::string::npos);
+    CHECK(told("G93\nG1 X1 A5 F60").empty());
+    CHECK(told("G21 G90\nG1 X5 F60\nG28 X0\nM2").empty());
+    CHECK(told("(grbl)\nG1 X1 A5 F60\nG4 P500").empty()); // it is named
+    CHECK(guess("T0101\nG1 X5").differences(Dialect::linuxcnc) ==
+          "'T0101' on line 1 is a number of a tool, in fanuc it is a lathe's tool and offset");
 }

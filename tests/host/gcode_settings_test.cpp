@@ -45,7 +45,7 @@ TEST_CASE("Lines and unknown words may be ignored, too") {
 TEST_CASE("The dialect may be guessed, and fanuc has increments") {
     GcodeArguments typed;
     typed.dialect = "auto";
-    CHECK(read_gcode_arguments(typed).guess_dialect);
+    CHECK(read_gcode_arguments(typed).dialect_choice == DialectChoice::first_lines);
     CHECK(read_gcode_arguments(typed).dialect == Dialect::linuxcnc);
     typed.increments = true;
     typed.dialect = "fanuc";
