@@ -113,8 +113,8 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
         if (wait_for_input(word, line)) {
             return;
         }
-        const auto rest = std::ranges::subrange(ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_at_), ahead_.end());
-        if (std::ranges::any_of(rest, [](const SourceLine& later) { return has_program_end(later.text); })) {
+        const auto rest = ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_at_);
+        if (std::any_of(rest, ahead_.end(), [](const SourceLine& later) { return has_program_end(later.text); })) {
             fail(line, word.label_at,
                  "M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first");
         }

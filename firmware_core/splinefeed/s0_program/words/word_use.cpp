@@ -130,6 +130,25 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
     return {};
 }
 
+// Beside G80. Where cycles are of a group of their own, the motion from before them goes on.
+BlockStatus find_use_behind(const Block& block, const ModalState& modal, const DialectRules& rules, bool axes,
+                            BlockUse& out) noexcept {
+    if (axes && (!rules.cycles_apart || modal.before_cycle == ModalState::no_motion)) {
+        return block.at(ProgramError::axis_word_unused, CodeGroup::motion);
+    }
+    if (axes) {
+        out.motion = modal.before_cycle;
+        out.axes = AxisUse::motion;
+    }
+    return {};
+}
+
+// A printer's curve to where it stands: G5 alone.
+bool is_bare_curve(const Block& block, const DialectRules& rules, bool axes) noexcept {
+    const std::int16_t motion = block.code(CodeGroup::motion);
+    return rules.one_command && (motion == 50 || motion == 51) && !axes && !block.has_any(Block::bits("ijpq"));
+}
+
 BlockStatus find_axis_use(const Block& block, const ModalState& modal, const DialectRules& rules, bool axes,
                           BlockUse& out) noexcept {
     const std::int16_t motion = block.code(CodeGroup::motion);
@@ -155,14 +174,9 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, const Dia
         return {};
     }
     if (motion == ModalState::no_motion) {
-        const bool goes_on = axes && rules.cycles_apart && modal.before_cycle != ModalState::no_motion;
-        out.motion = goes_on ? modal.before_cycle : out.motion;
-        out.axes = goes_on ? AxisUse::motion : out.axes;
-        return axes && !goes_on ? block.at(ProgramError::axis_word_unused, CodeGroup::motion) : BlockStatus{};
+        return find_use_behind(block, modal, rules, axes, out);
     }
-    const bool is_bare =
-        rules.one_command && motion >= 50 && motion <= 51 && !axes && !block.has_any(Block::bits("ijpq"));
-    if (is_bare) { // a printer's curve to where it stands
+    if (is_bare_curve(block, rules, axes)) {
         return {};
     }
     if (motion != Block::no_code) {
