@@ -103,12 +103,12 @@ bool has_word(std::string_view code, std::string_view word) noexcept {
     return false;
 }
 
-/// G28 X: a letter without its number.
-bool is_bare_home(std::string_view plain) noexcept {
+/// G28 X: a letter without its number; or a G5 alone, which slicers write where nothing else stands.
+bool is_bare(std::string_view plain) noexcept {
     const std::size_t at = plain.find("g28");
     const std::size_t letter = at == std::string_view::npos ? at : plain.find_first_of("xyz", at);
-    return letter != std::string_view::npos &&
-           (letter + 1 == plain.size() || std::string_view("xyz").find(plain[letter + 1]) != std::string_view::npos);
+    return plain == "g5" || (letter != std::string_view::npos &&
+                             (letter + 1 == plain.size() || (plain[letter + 1] >= 'a' && plain[letter + 1] <= 'z')));
 }
 
 } // namespace
@@ -167,7 +167,7 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
             count(sign.dialect, sign.points, code, line);
         }
     }
-    if (is_bare_home(text)) {
+    if (is_bare(text)) {
         count(Dialect::marlin, 5, code, line);
     }
     if (has_lathe_tool(text)) {
