@@ -115,3 +115,23 @@ TEMPLATE_TEST_CASE("rapids have an override of their own, also while the machine
     CHECK(later.rapid < 25.1L);
     CHECK(later.feed < 20.2L); // samples are averages, also where the feed changes
 }
+
+// What a spindle's reserve or a sender's limit says is in mm/s: a turn alone keeps its degrees a second.
+TEMPLATE_TEST_CASE("an upper limit of the feed does not hold for turns alone", "[stream][steering]", double, Fixed) {
+    MachineSettings machine = machine_of(2, 200.0, 1000.0, 100.0);
+    machine.axis[1].rotary = true;
+    BezierPath path{line_shape(2, 3, {0.0, 60.0}), line_shape(2, 3, {60.0, 0.0})};
+    path[0].feed_mm_s = path[1].feed_mm_s = 100.0;
+    const SteeredRun run = run_steered<TestType>(path, machine, 256, {{0, Order::limit_feed, 30.0}});
+    REQUIRE(run.finished);
+    require_limits(run, machine);
+    std::array<double, 2> fastest{};
+    for (const FeedSegment& segment : run.segments) {
+        for (unsigned k = 0; k < 2; ++k) {
+            fastest[k] = std::max(fastest[k], std::fabs(static_cast<double>(segment.end_velocity[k])) /
+                                                  static_cast<double>(units_per_mm(machine.axis[k]) * 1e-3L));
+        }
+    }
+    CHECK(fastest[0] == Approx(30.0).epsilon(2e-3));
+    CHECK(fastest[1] == Approx(100.0).epsilon(2e-3));
+}
