@@ -11,8 +11,8 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double arc_error = 9e-8;    // of a quintic of 0.4 rad, as a part of the radius
-constexpr double most_of_piece = 0.4; // [rad]
+constexpr double arc_error = 9e-8;       // of a quintic of 0.4 rad, as a part of the radius
+constexpr double least_growth_mm = 4e-6; // of the radius of a spiral
 constexpr double any_distance = 1e150;
 constexpr double left_out_below_mm = 2e-4; // on every axis: waypoints merge within half of it, and ends add up
 constexpr int parts_of_line = 4;
@@ -47,27 +47,10 @@ double argument_of_largest(double low, double high, const Value& value) {
     return 0.5 * (low + high);
 }
 
-// How far the quintics of an arc leave a spiral. They meet it in places, but their directions there are those of
-// circles, and their handles are all as long as at the mean radius. Beside those of the spiral, the derivatives of a
-// piece that turns by a and grows by p are wrong by
-//     -p  outwards and  a d  along   at its ends, where the mean radius is d larger,
-// and the second ones by -2 a^2 d and -2 a p. A quintic is linear in them: with its parameter t, Hermite's basis gives
-//     p (t - smooth(t)) + 6 a^2 d t^3 (1 - t)^3   outwards,  smooth(t) = 10 t^3 - 15 t^4 + 6 t^5,
-//     a d (t - smooth(t)) + 6 a p t^3 (1 - t)^3   along,     |t - smooth(t)| <= 0.147, t^3 (1 - t)^3 <= 1/64,
-// and up to a tenth more, for a is not small and d differs by p at the ends. What is along counts as far as the path
-// rises, grows or moves other axes meanwhile. With n turns, p is the growth by 0.4/(2 pi n) at most, d half of it.
-double spiral_error(const ProgrammedArc& arc, double others_sq) noexcept {
-    constexpr double wave = 0.16;
-    constexpr double bulge = 3.0 / 32.0;
-    constexpr double unequal = 0.25; // bulge, and the largest value of Hermite's basis
+// Quintics that turn by 0.4 rad. Those of spirals are shorter: they need no more than the slack.
+double circle_error(const ProgrammedArc& arc) noexcept {
     const double growth = std::fabs(arc.radius_to() - arc.radius_from());
-    const double turned = std::fabs(arc.angle());
-    const double piece = std::fmin(turned, most_of_piece);
-    const double piece_growth = growth * piece / turned;
-    const double outwards = wave * piece_growth + bulge * piece * piece * 0.5 * growth;
-    const double along = piece * (wave * 0.5 * growth + unequal * piece_growth);
-    const double across = std::sqrt(growth * growth + arc.rise() * arc.rise() + others_sq);
-    return outwards + along * across / std::hypot(across, turned * std::fmin(arc.radius_from(), arc.radius_to()));
+    return growth < least_growth_mm ? arc_error * std::fmax(arc.radius_from(), arc.radius_to()) : 0.0;
 }
 
 } // namespace
@@ -97,12 +80,7 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
                .tolerance = move.tolerance_mm,
                .line = line};
     if (const auto& arc = added.strand.arc()) {
-        double others_sq = 0.0;
-        for (unsigned k = 3; k < static_cast<unsigned>(axes_); ++k) {
-            const double way = to_mm(Position{move.to[k].raw - here_[k].raw});
-            others_sq += way * way;
-        }
-        added.rounding = arc_error * added.strand.radius() + spiral_error(*arc, others_sq);
+        added.rounding = circle_error(*arc);
     }
     const double largest = largest_size(distances<double>(here_, move.to, 0, axes_), axes_);
     const PerAxis<double> apart = distances<double>(whole_end_, move.to, 0, axes_);

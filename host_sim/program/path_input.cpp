@@ -35,6 +35,10 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const PathMach
       scalar_(arguments.scalar), read_ahead_(use == PathUse::followed), content_(open(arguments, use, machine)) {}
 
 PathInput::Content PathInput::open(const PathArguments& arguments, PathUse use, const PathMachine& machine) {
+    if (path_ == "-" && is_regular_file("/dev/stdin")) {
+        path_ = "/dev/stdin"; // it can be read twice
+    }
+    reopens_ = given_ ? given_->repeatable : is_regular_file(path_);
     if (format_->is_curve()) {
         return open_description(arguments, use);
     }
@@ -53,10 +57,6 @@ OpenedRows PathInput::open_rows() const {
 
 PathInput::Content PathInput::open_waypoints(const PathArguments& arguments, PathUse use) {
     choice_ = choose_curve(arguments.curve);
-    if (path_ == "-" && is_regular_file("/dev/stdin")) {
-        path_ = "/dev/stdin"; // it can be read twice
-    }
-    repeatable_ = given_ ? given_->repeatable : is_regular_file(path_);
     OpenedRows opened = open_rows();
     axes_ = std::move(opened.axes);
     const bool within_tolerance = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
@@ -165,10 +165,6 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     }
     choice_.method = "gcode";
     axes_ = machine.axes.empty() ? std::vector<std::string>{"x", "y", "z"} : machine.axes;
-    if (path_ == "-" && is_regular_file("/dev/stdin")) {
-        path_ = "/dev/stdin"; // it can be read twice
-    }
-    repeatable_ = is_regular_file(path_);
     GcodeSettings out = read_gcode_arguments(arguments.gcode);
     out.simulated = use != PathUse::followed;
     out.tolerance_mm = tolerances_.programmed_mm;
@@ -181,10 +177,10 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     out.lines = machine.lines;
     left_out_ = std::make_unique<LeftOutList>();
     out.left_out = left_out_.get();
-    if (out.dialect_choice == DialectChoice::first_lines && !repeatable_) {
+    if (out.dialect_choice == DialectChoice::first_lines && !reopens_) {
         throw UsageError("--dialect auto reads the first lines before the others; name the dialect, or give it a file");
     }
-    if (repeatable_) {
+    if (reopens_) {
         guess_dialect(out);
     }
     return out;

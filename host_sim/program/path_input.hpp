@@ -100,8 +100,14 @@ public:
     [[nodiscard]] const PathTolerances& tolerances() const noexcept { return tolerances_; }
     /// Number of waypoints from which the segments were computed; 0: none, or not known.
     [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
-    /// Whether rows() can be called again: the input is not a pipe.
-    [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
+    /// Whether rows() and lines() can be called again: the input is not a pipe, or nothing more is read of it.
+    [[nodiscard]] bool repeatable() const noexcept {
+        return reopens_ || segments() != nullptr || elements() != nullptr;
+    }
+    /// Whether another PathInput can read the same: the input is not a pipe.
+    [[nodiscard]] bool reopens() const noexcept { return reopens_; }
+    /// The path that is opened: of a file that is standard input /dev/stdin. Empty: rows that are in no file.
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
     /// The waypoints, from the first one. For a real machine a thread reads them ahead. If the input is not repeatable,
     /// call it only once. @pre segments(), elements() and gcode() are null
     [[nodiscard]] std::unique_ptr<WaypointRows> rows();
@@ -127,7 +133,7 @@ private:
     [[nodiscard]] CurveFile compute_from_points(const PointsMethod& method, WaypointRows& rows, PathUse use);
 
     std::string name_;
-    std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
+    std::string path_;
     std::optional<GivenRows> given_;
     CurveChoice choice_;
     PathTolerances tolerances_;
@@ -136,7 +142,7 @@ private:
     std::vector<std::string> axes_;
     std::uint64_t points_read_ = 0;
     ScalarKind scalar_;
-    bool repeatable_ = true;
+    bool reopens_ = true;
     bool read_ahead_ = false;
     std::unique_ptr<LeftOutList> left_out_; // of a program in G-code
     std::string dialect_choice_;

@@ -93,7 +93,7 @@ void write_problems(const RunArguments& arguments, const MachineDescription& mac
                     PathInput& input, const ProgramFindings& findings) {
     RunReport page(arguments.outputs.report, machine, segment_ticks);
     Survey(machine, input.name(), &page.record()).read(input);
-    page.write(report_facts(arguments, input, {}, fmt::format("{}", fmt::join(findings.problems, "\n"))));
+    page.write(report_facts(input, {}, fmt::format("{}", fmt::join(findings.problems, "\n"))));
 }
 
 } // namespace
@@ -143,7 +143,7 @@ int check_program(const RunArguments& arguments) {
     const std::string stopped = motion.run(survey.report().feeds().moves + survey.report().rapids().moves);
     const Summary summary = motion.summary();
     if (page) {
-        page->write(report_facts(arguments, input, summary, stopped));
+        page->write(report_facts(input, summary, stopped));
     }
     if (!stopped.empty()) {
         findings.problems.push_back(stopped);

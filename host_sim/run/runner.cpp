@@ -133,8 +133,9 @@ MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMach
 bool finds_help(const RunArguments& arguments, const PathInput& input, const Summary& summary) {
     const bool is_told =
         !arguments.outputs.report.empty() || arguments.result != nullptr || arguments.summary != SummaryKind::none;
-    return arguments.helps && !target_kind(arguments.target).is_real && input.repeatable() && summary.optimum_time_s &&
-           is_told;
+    const std::optional<std::string>& tools = arguments.path.gcode.tools;
+    const bool reopens = input.reopens() && (!tools || is_regular_file(*tools));
+    return arguments.helps && !target_kind(arguments.target).is_real && reopens && summary.optimum_time_s && is_told;
 }
 
 void find_help(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Motion& motion,
@@ -179,10 +180,9 @@ MachineChoice machine_of(const RunArguments& arguments) {
     return {arguments.machine, arguments.settings, arguments.path.input};
 }
 
-ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
-                         const std::string& stopped) {
+ReportFacts report_facts(const PathInput& input, const Summary& summary, const std::string& stopped) {
     return {.program = input.name(),
-            .text_file = input.repeatable() ? arguments.path.input : std::string(),
+            .text_file = input.reopens() ? input.path() : std::string(),
             .unit = input.segments() == nullptr ? "line" : "segment",
             .stopped = stopped,
             .summary = &summary};
@@ -251,7 +251,7 @@ int run(const RunArguments& arguments) {
         summary.planning_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     }
     if (report) {
-        report->write(report_facts(arguments, input, summary, stopped));
+        report->write(report_facts(input, summary, stopped));
     }
     warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, arguments.summary);

@@ -57,8 +57,7 @@ struct RunArguments {
 
 /// What the page of a run or of a check says beside the motion. The summary must outlive it.
 /// @param stopped  ReportFacts::stopped
-[[nodiscard]] ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
-                                       const std::string& stopped);
+[[nodiscard]] ReportFacts report_facts(const PathInput& input, const Summary& summary, const std::string& stopped);
 
 /// Writes the curve through the points as Bezier segments; nothing moves. Returns 0. Throws like run().
 [[nodiscard]] int draw(const RunArguments& arguments);

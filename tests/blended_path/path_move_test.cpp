@@ -107,6 +107,73 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
     }
 }
 
+TEMPLATE_TEST_CASE("states of spirals, from nearly round to nearly straight", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    Random random(55);
+    for (int round = 0; round < rounds(300, 300); ++round) {
+        MoveProgram program;
+        program.axes = random.integer(2, 4);
+        const Real radius = real_decades(random, 0.1, 1000.0);
+        program.start = {radius, 0.0L};
+        const Real sweep = real_decades(random, 0.01, 6.0) * (random.chance(0.5) ? 1.0L : -1.0L);
+        ProgrammedMove& arc = program.arc(0.0L, 0.0L, sweep, radius * real_between(random, -1.0, 1.0));
+        const Real wider = 1.0L + real_decades(random, 1e-4, 0.06) * (random.chance(0.5) ? 1.0L : -1.0L);
+        arc.to[0] *= wider;
+        arc.to[1] *= wider;
+        const PathMove<S> move = move_of<S>(arc, program.axes);
+        CAPTURE(round, static_cast<double>(radius), static_cast<double>(sweep), static_cast<double>(wider));
+        const Real close = (std::same_as<S, float> ? 1e-5L : 1e-8L) * radius;
+        for (const Real share : {0.0L, 0.3L, 0.99L}) {
+            const S way = from_double<S>(static_cast<double>(share * exact(move.longest_way())));
+            const Real t = exact(way) / exact(move.length());
+            PathState<S> state;
+            move.behind_start(way, state);
+            require_state(state, arc, t, arc.from, program.axes, close);
+            move.before_end(way, state);
+            require_state(state, arc, 1.0L - t, arc.to, program.axes, close);
+            PlaceMm place = arc.at(1.0L - t, program.axes);
+            PerAxis<S> offset{};
+            for (const unsigned k : indices(program.axes)) {
+                place[k] += 1e-3L * std::min(radius, exact(move.length()) / unit) * (k % 2 == 0 ? 1.0L : -0.7L);
+                offset[k] = from_double<S>(static_cast<double>((place[k] - arc.to[k]) * unit));
+            }
+            const Real distance = arc.distance(place, program.axes);
+            const Real found = exact(move.distance_near(true, offset)) / unit;
+            CHECK(found >= distance - close);
+            CHECK(found <= distance * 1.1L + 0.1L * close);
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("quintics of spirals are within 1e-6 mm, whatever the radius", "[blended_path]", double, Fixed) {
+    using S = TestType;
+    Random random(56);
+    for (int round = 0; round < rounds(100, 500); ++round) {
+        MoveProgram program;
+        const Real radius = real_decades(random, 0.1, 3000.0);
+        program.start = {radius, 0.0L};
+        ProgrammedMove& arc =
+            program.arc(0.0L, 0.0L, real_decades(random, 0.001, 7.0), radius * real_between(random, -0.1, 0.1));
+        const Real wider = 1.0L + real_decades(random, 1e-5, 0.06) * (random.chance(0.5) ? 1.0L : -1.0L);
+        arc.to[0] *= wider;
+        arc.to[1] *= wider;
+        arc.mode = PathMode::exact_path;
+        TolerancePath<S> path(3, {});
+        REQUIRE(path.start(position_of<S>(arc.from)).ok());
+        REQUIRE(path.push(element_of<S>(arc, 3)).ok());
+        REQUIRE(path.finish().ok());
+        std::vector<CurveSegment<S>> segments(1);
+        while (path.next(segments.back()) == Pull::item) {
+            segments.emplace_back();
+        }
+        segments.pop_back();
+        const Real largest = deviation(program, segments, 8).most * static_cast<Real>(arc.tolerance_mm);
+        CAPTURE(round, static_cast<double>(radius), static_cast<double>(arc.sweep), static_cast<double>(wider));
+        // Frames in Fixed have 2^-32 of the radius, and an angle that is doubled four times.
+        CHECK(largest < 1e-6L + (std::same_as<S, Fixed> ? 1e-8L * radius : 0.0L));
+    }
+}
+
 TEMPLATE_TEST_CASE("an arc in pieces", "[blended_path]", double, float, Fixed) {
     using S = TestType;
     MoveProgram program;

@@ -127,6 +127,34 @@ TEST_CASE("devices and pipes take any number of outputs") {
     CHECK(contains(tool.read("got"), "t,x,y,z"));
 }
 
+TEST_CASE("what cannot be read again is read once, and nothing says then what would help") {
+    const Tool tool;
+    write_inputs(tool);
+    tool.write("e.json", R"({"elements": [{"type": "line", "from": [0, 0, 0], "to": [9, 0, 0], "feed_mm_s": 20}]})");
+    tool.write("c.json",
+               R"({"degree": 3, "segments": [{"control_points": [[0, 0, 0], [3, 0, 0], [6, 3, 0], [9, 3, 0]]}]})");
+    tool.write("g.ngc", "T1 M6\nG43\nG1 X9 F600\nM2\n");
+    tool.write("tool.tbl", "T1 P1 Z10\n");
+    const std::string run = "'" + splinefeed::test::tool_path() + "' run ";
+    const std::string rest = " --quiet --summary json --report r.html";
+    const auto helps = [&](const std::string& command) {
+        const Call call = tool.shell(command + rest);
+        CAPTURE(command, call.error);
+        REQUIRE(call.status == 0);
+        return !nlohmann::json::parse(call.output)["what_would_help"].is_null();
+    };
+    for (const std::string file : {"p.csv", "e.json", "c.json"}) {
+        const std::string format = " --format " + file.substr(file.find('.') + 1);
+        CHECK_FALSE(helps("cat " + file + " | " + run + "-" + format));
+        CHECK_FALSE(helps("cat " + file + " | " + run + "/dev/stdin" + format));
+        CHECK(helps(run + "- " + format + " <" + file));
+    }
+    CHECK_FALSE(helps("mkfifo f && { cat tool.tbl >f & } && " + run + "g.ngc --tools f"));
+    CHECK(helps(run + "g.ngc --tools tool.tbl"));
+    CHECK(helps(run + "- --format gcode --tools tool.tbl <g.ngc"));
+    CHECK(contains(tool.read("r.html"), "G1 X9 F600")); // the report shows what was redirected, too
+}
+
 TEST_CASE("events that never happened are told") {
     const Tool tool;
     write_inputs(tool);

@@ -283,7 +283,9 @@ int BlendedPath<S>::piece_of(const PathMove<S>& move, bool last, PerAxis<PerDegr
     from.offset = {};
     to.offset = end;
     const S length = move.piece_length(before_, after_, pieces_);
-    quintic_between(from, to, literal<S>(0.2) * length, literal<S>(0.4) * length, axes_, points);
+    const S way = before_ + length * from_integer<S>(piece_ - 1);
+    quintic_between(from, to, move.handles(way, length, false), move.handles(way + length, length, true), axes_,
+                    points);
     return 5;
 }
 

@@ -5,6 +5,11 @@
 //     r (-x versine(d) + y sin(d)),
 // so its error is one of the way and not of the radius. Angle and radius are those of the whole arc at that way: where
 // two blends meet in an arc, both have the same state, though its radii differ.
+//
+// A spiral is at r(w) x(w) + w H, with the way w, x from the axis to the path, y across it, R its mean radius. Angle
+// and radius change evenly with w: x' = t y / R, y' = -t x / R, r' = g. So with a = t r / R
+//     C' = g x + a y + H,   C'' = (t / R) (2 g y - a x),   |C'|' = C' C'' / |C'| = (t / R) g a / |C'|.
+// The quintic over a way h has these at both ends: its error is h^6 |C| / 46080.
 #include "splinefeed/s1_blended_path/path_move.hpp"
 
 #include "splinefeed/number/angle.hpp"
@@ -23,7 +28,15 @@ constexpr double longest_move = 0x1p28; // 65 m
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double most_of_piece = 0.4; // [rad]
 constexpr std::int32_t most_turns = 10000;
-constexpr double first_share = 0.49; // of an arc is seen from its start; blends that share it hardly meet just there
+constexpr double least_growth = 0x1p-7; // 1.9e-6 mm: the quintics of a circle leave such a spiral by a fifth of it
+constexpr double fine_radius = 23000.0; // 5.6 mm: quintics of 0.4 rad leave a spiral by 5e-7 mm
+constexpr double first_share = 0.49;    // of an arc is seen from its start; blends that share it hardly meet just there
+
+// Of the radius, for each unit of the chord: directions have so many digits.
+template <Scalar S>
+constexpr int growth_digits = std::same_as<S, float>    ? 20
+                              : std::same_as<S, double> ? 48
+                                                        : 28;
 
 // floor(x) for 0 <= x < 2^20.
 template <Scalar S>
@@ -147,10 +160,19 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     if (!(sweep_ < quotient_or_max(literal<S>(longest_move), radius))) {
         return Error::move_too_long;
     }
+    std::array<S, 3> chord{};
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        chord[k] = distance<S>(from_[k], to_[k], chord_unit_log2);
+    }
+    // Of large radii the difference has few digits. The difference of their squares is (b - a) (b + a).
+    const S start_share = quotient_or_max(scale2(radius_start_, -1), radius);
+    growth_ =
+        start_share * dot(chord, start_.radial, 3) + (from_integer<S>(1) - start_share) * dot(chord, end_.radial, 3);
+    spiral_ = absolute(growth_) > larger(literal<S>(least_growth), scale2(norm(chord, 3), -growth_digits<S>));
     PerAxis<S> rise{};
     S height{};
     for (unsigned k = 0; k < in_plane(); ++k) {
-        height += distance<S>(from_[k], to_[k], chord_unit_log2) * arc.normal[k];
+        height += chord[k] * arc.normal[k];
     }
     for (unsigned k = 0; k < in_plane(); ++k) {
         rise[k] = height * arc.normal[k];
@@ -158,8 +180,8 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     for (unsigned k = 3; k < static_cast<unsigned>(smaller(axes_, max_axes)); ++k) {
         rise[k] = distance<S>(from_[k], to_[k], chord_unit_log2);
     }
-    const std::array<S, 2> legs{radius * sweep_, norm(rise, axes_)};
-    length_ = norm(legs, 2);
+    const std::array<S, 3> legs{radius * sweep_, norm(rise, axes_), growth_};
+    length_ = norm(legs, spiral_ ? 3 : 2);
     in_plane_ = legs[0] / length_;
     divide(rise, length_, axes_);
     along_ = rise;
@@ -167,12 +189,43 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     return {};
 }
 
+template <Scalar S>
+typename PathMove<S>::Pace PathMove<S>::pace_at(S radius) const noexcept {
+    const S around = in_plane_ * (radius / mean_radius());
+    const std::array<S, 3> parts{growth_ / length_, around, norm(along_, axes_)};
+    return {parts[0], around, norm(parts, 3)};
+}
+
+template <Scalar S>
+void PathMove<S>::turned_outwards(const Frame& frame, S cosine, S sine, S radius, PathState<S>& out) const noexcept {
+    const Pace pace = pace_at(radius);
+    // t / R in units of 2^-bend_log2. The radius is above 1/8, for it changes by a sixteenth at most.
+    const S turn = literal<S>(0x1p20) * in_plane_ / mean_radius();
+    const S faster = pace.outwards * pace.around * turn / pace.speed;
+    const S speed_sq = pace.speed * pace.speed;
+    out.tangent = along_;
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        const S radial = cosine * frame.radial[k] + sine * frame.along[k];
+        const S across = cosine * frame.along[k] - sine * frame.radial[k];
+        out.offset[k] = radius * radial;
+        out.tangent[k] += pace.outwards * radial + pace.around * across;
+        out.bend[k] = turn * (scale2(pace.outwards * across, 1) - pace.around * radial);
+    }
+    divide(out.tangent, pace.speed, axes_);
+    add(out.bend, -faster, out.tangent, axes_);
+    divide(out.bend, speed_sq, axes_);
+}
+
 // The state on a circle where (cosine, sine) is the direction from its axis in a frame; the offset is from the axis.
 template <Scalar S>
 void PathMove<S>::turned(const Frame& frame, S cosine, S sine, S radius, PathState<S>& out) const noexcept {
     // K = cos^2(pitch) / r, in units of 2^-bend_log2.
-    const S bend = quotient_or_max(literal<S>(0x1p20) * in_plane_ * in_plane_, radius);
     out = {};
+    if (spiral_) {
+        turned_outwards(frame, cosine, sine, radius, out);
+        return;
+    }
+    const S bend = quotient_or_max(literal<S>(0x1p20) * in_plane_ * in_plane_, radius);
     out.tangent = along_;
     for (unsigned k = 0; k < in_plane(); ++k) {
         const S radial = cosine * frame.radial[k] + sine * frame.along[k];
@@ -189,7 +242,7 @@ void PathMove<S>::near(bool at_end, S way, PathState<S>& out) const noexcept {
     const S angle = way * in_plane_ / mean_radius(); // as a share of the sweep it would lose digits
     const S sine = small_sine(angle);
     const S versine = small_versine(angle);
-    const S wider = (radius_end_ - radius_start_) * (way / length_);
+    const S wider = (spiral_ ? growth_ : radius_end_ - radius_start_) * (way / length_);
     const S radius = (at_end ? radius_end_ : radius_start_) + wider;
     turned(frame, from_integer<S>(1) - versine, sine, radius, out);
     out.offset = along_;
@@ -254,7 +307,11 @@ S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcep
             across += point[k] * frame.radial[k];
             along += point[k] * frame.along[k];
         }
-        way = angle_of(across, along) * mean_radius() * in_plane_; // and how far it has risen
+        way = angle_of(across, along) * mean_radius() * in_plane_; // and how far it has risen, and grown
+        if (spiral_) {
+            const std::array<S, 2> arm{across, along};
+            way += (norm(arm, 2) - (at_end ? radius_end_ : radius_start_)) * (growth_ / length_);
+        }
         for (const unsigned k : indices(axes_)) {
             way += point[k] * along_[k];
         }
@@ -276,7 +333,25 @@ int PathMove<S>::pieces(S trim_start, S trim_end) const noexcept {
         return 1;
     }
     const S angle = sweep_ * ((length_ - trim_start - trim_end) / length_);
-    return 1 + whole_part(larger(angle / literal<S>(most_of_piece), S{}));
+    S most = literal<S>(most_of_piece);
+    // Half the angle is 1/64 of the error, which grows with the radius.
+    for (S radius = mean_radius(); spiral_ && radius > literal<S>(fine_radius); radius = scale2(radius, -6)) {
+        most = scale2(most, -1);
+    }
+    return 1 + whole_part(larger(angle / most, S{}));
+}
+
+template <Scalar S>
+Handles<S> PathMove<S>::handles(S way, S piece, bool ends) const noexcept {
+    Handles<S> out{literal<S>(0.2) * piece, literal<S>(0.4) * piece};
+    if (spiral_) {
+        const Pace pace = pace_at(radius_start_ + growth_ * (way / length_));
+        const S turned = in_plane_ * (piece / mean_radius());
+        const S faster = literal<S>(0.05) * turned * pace.outwards * pace.around / pace.speed * piece;
+        out.first = out.first * pace.speed;
+        out.second = out.second * pace.speed + (ends ? -faster : faster);
+    }
+    return out;
 }
 
 template <Scalar S>
@@ -307,7 +382,7 @@ void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, Path
         cosine = cosine * cosine - sine * sine;
         sine = twice;
     }
-    const S radius = radius_start_ + (radius_end_ - radius_start_) * share;
+    const S radius = radius_start_ + (spiral_ ? growth_ : radius_end_ - radius_start_) * share;
     turned(start_, cosine, sine, radius, out);
     add(out.offset, way, along_, axes_);
     for (unsigned k = 0; k < in_plane(); ++k) {

@@ -17,6 +17,13 @@ struct PathState {
     S bend_error{};       ///< what rounding may have done to it
 };
 
+/// How far the inner points of a quintic are from the end beside them. [chord units]
+template <Scalar S>
+struct Handles {
+    S first{};
+    S second{};
+};
+
 /// The Bezier points of the quintic that leaves `from` and arrives at `to` with their directions and curvatures. The
 /// points next to the ends are `first` away from them, the next ones `second`:
 ///     C1 = C0 + first T,  C2 = C0 + second T + 5/4 first^2 K
@@ -25,5 +32,10 @@ struct PathState {
 template <Scalar S>
 void quintic_between(const PathState<S>& from, const PathState<S>& to, S first, S second, int axes,
                      PerAxis<PerDegree<S>>& points) noexcept;
+/// The same with other handles at either end. With second = 2 first + h^2 A / 20 and, at the end, 2 first - h^2 A / 20,
+/// A is the tangential acceleration there.
+template <Scalar S>
+void quintic_between(const PathState<S>& from, const PathState<S>& to, const Handles<S>& begin, const Handles<S>& end,
+                     int axes, PerAxis<PerDegree<S>>& points) noexcept;
 
 } // namespace splinefeed
