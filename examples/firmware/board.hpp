@@ -9,6 +9,7 @@
 //   constexpr unsigned steps_per_s;            // of the fastest axis; below half a step a tick
 //   constexpr std::size_t window;              // cells of look-ahead, 10 or more
 //   constexpr bool curves_through_points;      // whether it has RAM for G5.5; of boards that senders operate
+//   constexpr std::size_t parameters;          // of those, too: #1 to this one, and expressions; 0: it has neither
 //   constexpr std::size_t parts;               // of motion in the ring: longer than any next()
 //   constexpr unsigned interrupts;             // vectors after the 16 of the processor
 //   constexpr int timer_interrupt;             // the tick's, one of them; -1: SysTick

@@ -16,6 +16,7 @@
 #include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
+#include "splinefeed/s0_program/text/numbered_parameters.hpp"
 
 // Lines and arcs to curves within a tolerance.
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v jerk=1
-# [-v root=FUNCTION] [-v operated=1 [-v points=1]] -f stack.awk FILE.ci... jerk is 1 where it is limited, none where nothing is planned; operated: by
+# [-v root=FUNCTION] [-v operated=1 [-v points=1] [-v values=1]] -f stack.awk FILE.ci... jerk is 1 where it is limited, none where nothing is planned; operated: by
 # senders. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
@@ -31,14 +31,15 @@ BEGIN {
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
     # The controller calls the motion, the machine, and the functions of its commands; the list of settings those of its rows. The path
-    # within a tolerance is guarded. Nobody evaluates expressions, and there is no table of tools. points: the
-    # interpreter has memory for curves through points.
+    # within a tolerance is guarded. There is no table of tools. points: the interpreter has memory for curves through points.
+    # values: expressions are evaluated, with parameters by number.
     if (operated) {
         program = "INS_5FixedEE" # what programs are interpreted in
         guard = "^_ZNK?10splinefeed11TravelGuard" of "(5begin|9has_ended)E"
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
         split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion|10MoveStream;ScalarStream" of ";SettingList;(setting_rows|axis_settings).*_FUN;" \
-              "TravelGuard;13TolerancePath" of "4next;BlockInterpreter|BlockReader;^$;" \
+              "TravelGuard;13TolerancePath" of "4next;10Expression|6Parser;18NumberedParameters;" \
+              "BlockConditions|BlockInterpreter|BlockReader;" (values ? "10Expression" : "^$") ";" \
               "11Interpreter" program ";" (points ? "12SplinePoints" program : "^$"), may_call, ";")
     }
 }

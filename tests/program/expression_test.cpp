@@ -172,6 +172,20 @@ TEST_CASE("wrong expressions are refused where they are wrong", "[program][expre
     value_of(run, "", ProgramError::number_invalid);
 }
 
+TEST_CASE("as much as brackets and operators hold waits for one value", "[program][expression]") {
+    GcodeRun<double> run;
+    std::string begin;
+    for (int i = 0; i < Expression::deepest; ++i) {
+        begin += "[0 or 5 eq 1 + 2 * 2 ** "; // of 0 and 1 that is themselves
+    }
+    const std::string end(Expression::deepest, ']');
+    CHECK(value_of(run, begin + "0" + end) == 0.0);
+    CHECK(value_of(run, begin + "1" + end) == 1.0);
+    for (const char* const text : {"-#1", "#1", "sin[0]", "exists[#1]", "[1]"}) {
+        value_of(run, begin + text + end, ProgramError::expression_too_deep);
+    }
+}
+
 TEST_CASE("parameters change at the end of their block", "[program][expression]") {
     GcodeRun<double> run;
     CHECK(run.last("G0 #3=15 X#3") == "rapid 0 0 0");

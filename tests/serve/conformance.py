@@ -20,12 +20,12 @@ from sender import Failed, Sender, ServedDrives, Server
 
 HERE = pathlib.Path(__file__).resolve().parent
 VIRTUAL = {"machine", "told", "way", "connect", "disconnect", "times"}
-def cases(without):
-    """(name, lines) of the cases that need neither a machine in virtual time nor anything of `without`."""
+def cases(without, of=None):
+    """(name, lines) of the cases that need neither a machine in virtual time nor anything of `without`; of those that need something of `of`."""
     name, needs, lines = None, set(), []
 
     def runs():
-        return name and not needs & without and not any(command in VIRTUAL for _, command, _ in lines)
+        return name and not needs & without and (of is None or needs & of) and not any(command in VIRTUAL for _, command, _ in lines)
 
     for number, line in enumerate((HERE.parent / "controller/conformance.txt").read_text().splitlines(), 1):
         if not line or line.startswith("#"):

@@ -28,6 +28,7 @@ constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 20;
 constexpr bool curves_through_points = false; // 6 KB of RAM, which it does not have
+constexpr std::size_t parameters = 0;         // nor 1 KB for them
 constexpr std::size_t parts = 128;
 constexpr unsigned interrupts = 44;
 constexpr int timer_interrupt = 19; // timer 0A

@@ -23,6 +23,7 @@ constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 64;
 constexpr bool curves_through_points = true;
+constexpr std::size_t parameters = 200;
 constexpr std::size_t parts = 128;
 constexpr unsigned interrupts = 82;
 constexpr int timer_interrupt = -1; // SysTick, the vector before those of the chip

@@ -14,6 +14,8 @@
 #include "splinefeed/controller/travel_guard.hpp"
 #include "splinefeed/move_stream/scalar_stream.hpp"
 #include "splinefeed/s0_program/cycles/spline_points.hpp"
+#include "splinefeed/s0_program/expression.hpp"
+#include "splinefeed/s0_program/text/numbered_parameters.hpp"
 
 namespace firmware {
 
@@ -42,6 +44,19 @@ splinefeed::PointCurve<splinefeed::ProgramScalar>* curve_memory() noexcept {
     if constexpr (has_it) {
         static splinefeed::Slot<splinefeed::SplinePoints<splinefeed::ProgramScalar>> points;
         return &points.build();
+    } else {
+        return nullptr;
+    }
+}
+
+/// What evaluates expressions, on a board that has some memory for parameters.
+template <std::size_t count>
+splinefeed::WordEvaluator* word_evaluator() noexcept {
+    if constexpr (count > 0) {
+        static splinefeed::Slot<std::array<splinefeed::Decimal, count>> values;
+        static splinefeed::Slot<splinefeed::NumberedParameters> parameters;
+        static splinefeed::Slot<splinefeed::Expression> expression;
+        return &expression.build(parameters.build(values.build()));
     } else {
         return nullptr;
     }
@@ -127,7 +142,8 @@ int main() {
     stepper.build(generator, !by_watchdog);
     stream.build(*limits, planner.build(window.build()), path_rules,
                  &guard.build(operator_settings.travel, static_cast<int>(axes)));
-    motion.build(operator_settings, *stream, curve_memory<board::curves_through_points>());
+    motion.build(operator_settings, *stream, curve_memory<board::curves_through_points>(),
+                 word_evaluator<board::parameters>());
     controller.build(operator_settings, *motion, *stepper, Controller::Memory{lines_memory, answers_memory});
     board::start_timer();
     board::start_watchdog();

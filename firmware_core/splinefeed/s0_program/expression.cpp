@@ -13,130 +13,112 @@ namespace splinefeed {
 
 namespace {
 
-/// Reads values; holds what they refer to.
+constexpr std::int32_t most_parameters = 5602;
+
+bool is_letter(char c) noexcept {
+    return c >= 'a' && c <= 'z';
+}
+
+/// Reads values; holds what they refer to. No function calls itself, so that the stack has a bound: what waits for a
+/// value is kept beside.
 class Parser {
 public:
     Parser(TextCursor& text, const BlockInterpreter& control, const ParameterTable& table) noexcept
         : text_(text), system_(control), table_(table) {}
 
-    /// A value: a number, #..., [...] or a function, with a sign or without.
-    ProgramStatus value(Decimal& out, int depth) noexcept {
-        if (depth > Expression::deepest) {
-            return ProgramError::expression_too_deep;
-        }
-        const char c = text_.peek();
-        if (c == '[') {
-            text_.step();
-            return bracketed(out, depth);
-        }
-        if (c == '#') {
-            return parameter(out, depth);
-        }
-        if (c >= 'a' && c <= 'z') {
-            return function(out, depth);
-        }
-        if (c == '-' || c == '+') {
-            const char next = text_.peek_second();
-            if (next == '#' || next == '[' || (next >= 'a' && next <= 'z')) {
-                text_.step();
-                const ProgramStatus status = value(out, depth + 1);
-                if (status.ok() && c == '-') {
-                    out = -out;
-                }
-                return status;
-            }
-        }
-        return read_decimal(text_, out);
-    }
-
-    /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
-    ProgramStatus parameter_name(std::int32_t& number, std::string_view& name, int depth) noexcept {
-        number = 0;
-        text_.step(); // the #
-        if (text_.peek() == '<') {
-            const std::size_t begin = text_.at() + 1;
-            const std::size_t end = text_.find('>', begin);
-            if (end == text_.text().size() || end == begin) {
-                return ProgramError::parameter_name_invalid;
-            }
-            name = text_.part(begin, end);
-            text_.go_to(end + 1);
-            return {};
-        }
-        Decimal value_of;
-        const TextCursor start = text_;
-        if (const ProgramStatus status = value(value_of, depth + 1); !status.ok()) {
-            return status;
-        }
-        if (!to_integer(value_of, number) || number < 1 || number > most_parameters) {
-            text_ = start;
-            return ProgramError::parameter_out_of_range;
-        }
-        return {};
-    }
-
-private:
-    static constexpr std::int32_t most_parameters = 5602;
-
-    // Behind a [, up to its ].
-    ProgramStatus bracketed(Decimal& out, int depth) noexcept {
-        if (const ProgramStatus status = level(out, 1, depth + 1); !status.ok()) {
-            return status;
-        }
-        return text_.take(']')
-                   ? ProgramStatus{}
-                   : ProgramStatus(text_.at_end() ? ProgramError::bracket_missing : ProgramError::operator_unknown);
-    }
-
-    // A value, and what operators of this level and stronger ones make of it.
-    ProgramStatus level(Decimal& out, int lowest, int depth) noexcept {
-        ProgramStatus status = value(out, depth);
-        while (status.ok()) {
-            TextCursor ahead = text_;
-            const OperatorRow* found = take_operator(ahead);
-            if (found == nullptr || found->level < lowest) {
-                return status;
-            }
-            const TextCursor start = text_;
-            text_ = ahead;
-            Decimal right;
-            status = level(right, found->level + 1, depth);
-            if (status.ok()) {
-                status = apply(found->name, out, right, out);
-                if (!status.ok()) {
-                    text_ = start;
-                }
-            }
-        }
+    /// A value: a number, #..., [...] or a function, with a sign or without. `depth`: of what it stands in.
+    ProgramStatus value(Decimal& out, unsigned depth = 0) noexcept {
+        depth_ = depth;
+        bool complete = false;
+        ProgramStatus status;
+        do {
+            status = complete ? use(out, complete) : begin(out, complete);
+        } while (status.ok() && !(complete && count_ == 0));
         return status;
     }
 
-    ProgramStatus parameter(Decimal& out, int depth) noexcept {
-        const TextCursor start = text_;
-        std::int32_t number = 0;
-        std::string_view name;
-        if (const ProgramStatus status = parameter_name(number, name, depth); !status.ok()) {
-            return status;
+    /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
+    ProgramStatus parameter_name(std::int32_t& number, std::string_view& name) noexcept {
+        number = 0;
+        text_.step(); // the #
+        if (text_.peek() == '<') {
+            return take_name(name);
         }
-        if (number > 0) {
-            if (SystemParameters::owns(number)) {
-                out = system_.read(number);
-            } else if (!table_.read(number, out)) {
-                out = {};
-            }
-        } else if (!system_.read(name, out) && !table_.read(name, out)) {
-            text_ = start;
-            return ProgramError::parameter_unset;
-        }
-        if (out.raw > Decimal::largest_raw || out.raw < -Decimal::largest_raw) { // a table may hold anything
-            text_ = start;
-            return ProgramError::number_out_of_range;
-        }
-        return {};
+        Decimal value_of;
+        const std::size_t start = text_.at();
+        const ProgramStatus status = value(value_of, 1);
+        return status.ok() ? to_number(value_of, start, number) : status;
     }
 
-    ProgramStatus function(Decimal& out, int depth) noexcept {
-        const TextCursor start = text_;
+private:
+    enum class Kind : std::uint8_t {
+        minus,
+        plus,
+        operation, ///< its left side is known
+        bracket,
+        function,
+        divisor,   ///< the second bracket of ATAN; the first one's value is `left`
+        parameter, ///< the number behind #
+        existence, ///< the same, in EXISTS
+    };
+    /// What waits for a value. Raw, since a Decimal would initialise all of them.
+    struct Pending {
+        std::int64_t left; // of an operation or a divisor
+        std::uint16_t at;  // in the text
+        Kind kind;
+        std::uint8_t depth; // of the value
+        std::uint8_t level; // of an operation, else 0
+        Operator operation;
+        Function function;
+    };
+    // At each depth one, and if it is a bracket an operator of each level; at the last one none is read.
+    static constexpr int most_pending = Expression::deepest * (1 + strongest_level) + 1;
+
+    [[nodiscard]] unsigned depth() const noexcept { return count_ > 0 ? pending_[count_ - 1].depth : depth_; }
+
+    Pending& wait(Kind kind, std::size_t at) noexcept {
+        SPLINEFEED_ASSERT(count_ < pending_.size());
+        const auto inside = static_cast<std::uint8_t>(depth() + (kind == Kind::operation ? 0U : 1U));
+        return pending_[count_++] = {0, static_cast<std::uint16_t>(at), kind, inside, 0, {}, {}};
+    }
+
+    // What a value begins with: all of it, or what waits for the rest.
+    ProgramStatus begin(Decimal& out, bool& complete) noexcept {
+        if (depth() > Expression::deepest) {
+            return ProgramError::expression_too_deep;
+        }
+        const char c = text_.peek();
+        if (c == '#') {
+            return begin_parameter(Kind::parameter, out, complete);
+        }
+        if (is_letter(c)) {
+            return begin_function(out, complete);
+        }
+        const char next = c == '-' || c == '+' ? text_.peek_second() : '\0';
+        if (c == '[' || next == '#' || next == '[' || is_letter(next)) {
+            wait(c == '[' ? Kind::bracket : c == '-' ? Kind::minus : Kind::plus, text_.at());
+            text_.step();
+            return {};
+        }
+        complete = true;
+        return read_decimal(text_, out);
+    }
+
+    ProgramStatus begin_parameter(Kind kind, Decimal& out, bool& complete) noexcept {
+        const std::size_t start = text_.at();
+        text_.step(); // the #
+        if (text_.peek() != '<') {
+            wait(kind, start);
+            return {};
+        }
+        complete = true;
+        std::string_view name;
+        const ProgramStatus status = take_name(name);
+        return status.ok() ? find(kind, start, 0, name, out) : status;
+    }
+
+    ProgramStatus begin_function(Decimal& out, bool& complete) noexcept {
+        const std::size_t start = text_.at();
         const FunctionRow* row = take_function(text_);
         if (row == nullptr) {
             return ProgramError::function_unknown;
@@ -145,53 +127,129 @@ private:
             return ProgramError::bracket_missing;
         }
         if (row->name == Function::exists) {
-            return exists(out, depth);
+            return text_.peek() == '#' ? begin_parameter(Kind::existence, out, complete)
+                                       : ProgramStatus(ProgramError::parameter_name_invalid);
         }
-        Decimal argument;
-        ProgramStatus status = bracketed(argument, depth);
-        if (!status.ok()) {
-            return status;
+        wait(Kind::function, start).function = row->name;
+        return {};
+    }
+
+    // The value is complete: the newest that waits takes it, and makes of it another, or waits for more.
+    ProgramStatus use(Decimal& out, bool& complete) noexcept {
+        const Pending top = pending_[count_ - 1];
+        switch (top.kind) {
+        case Kind::minus: out = -out; [[fallthrough]];
+        case Kind::plus: --count_; return {};
+        case Kind::parameter:
+        case Kind::existence: --count_; return use_number(top, out);
+        case Kind::operation:
+        case Kind::bracket:
+        case Kind::function:
+        case Kind::divisor: break;
         }
-        if (row->name == Function::atan) {
-            Decimal other;
+        TextCursor ahead = text_;
+        const OperatorRow* const next = take_operator(ahead);
+        if (next != nullptr && next->level > top.level) {
+            Pending& operation = wait(Kind::operation, text_.at());
+            operation.operation = next->name;
+            operation.level = static_cast<std::uint8_t>(next->level);
+            operation.left = out.raw;
+            text_ = ahead;
+            complete = false;
+            return {};
+        }
+        --count_;
+        return top.kind == Kind::operation ? placed(top, apply(top.operation, {top.left}, out, out))
+                                           : close(top, out, complete);
+    }
+
+    // Its ].
+    ProgramStatus close(const Pending& top, Decimal& out, bool& complete) noexcept {
+        if (!text_.take(']')) {
+            return text_.at_end() ? ProgramError::bracket_missing : ProgramError::operator_unknown;
+        }
+        if (top.kind == Kind::divisor) {
+            out = angle_of(out, {top.left});
+        } else if (top.kind == Kind::function && top.function != Function::atan) {
+            return placed(top, apply(top.function, out, out));
+        } else if (top.kind == Kind::function) {
             if (!text_.take('/') || !text_.take('[')) {
                 return ProgramError::atan_needs_two;
             }
-            status = bracketed(other, depth);
-            out = angle_of(other, argument);
-            return status;
+            wait(Kind::divisor, text_.at()).left = out.raw;
+            complete = false;
         }
-        status = apply(row->name, argument, out);
+        return {};
+    }
+
+    // An error of what waited is at its beginning.
+    ProgramStatus placed(const Pending& of, ProgramStatus status) noexcept {
         if (!status.ok()) {
-            text_ = start;
+            text_.go_to(of.at);
         }
         return status;
     }
 
-    ProgramStatus exists(Decimal& out, int depth) noexcept {
-        if (text_.peek() != '#') {
+    ProgramStatus take_name(std::string_view& name) noexcept {
+        const std::size_t begin = text_.at() + 1;
+        const std::size_t end = text_.find('>', begin);
+        if (end == text_.text().size() || end == begin) {
             return ProgramError::parameter_name_invalid;
         }
-        std::int32_t number = 0;
-        std::string_view name;
-        if (const ProgramStatus status = parameter_name(number, name, depth); !status.ok()) {
-            return status;
+        name = text_.part(begin, end);
+        text_.go_to(end + 1);
+        return {};
+    }
+
+    ProgramStatus to_number(Decimal value, std::size_t start, std::int32_t& number) noexcept {
+        if (!to_integer(value, number) || number < 1 || number > most_parameters) {
+            text_.go_to(start);
+            return ProgramError::parameter_out_of_range;
         }
-        Decimal unused;
-        out = truth(number > 0 ? SystemParameters::owns(number) || table_.read(number, unused)
-                               : system_.read(name, unused) || table_.read(name, unused));
-        return text_.take(']') ? ProgramStatus{} : ProgramStatus(ProgramError::bracket_missing);
+        return {};
+    }
+
+    ProgramStatus use_number(const Pending& top, Decimal& out) noexcept {
+        TextCursor behind = text_;
+        behind.go_to(top.at);
+        behind.step();
+        std::int32_t number = 0;
+        const ProgramStatus status = to_number(out, behind.at(), number);
+        return status.ok() ? find(top.kind, top.at, number, {}, out) : status;
+    }
+
+    // What the parameter is worth, or whether it has a value.
+    ProgramStatus find(Kind kind, std::size_t start, std::int32_t number, std::string_view name,
+                       Decimal& out) noexcept {
+        const bool owned = SystemParameters::owns(number);
+        out = owned ? system_.read(number) : Decimal{};
+        const bool is_set =
+            owned || (number > 0 ? table_.read(number, out) : system_.read(name, out) || table_.read(name, out));
+        if (kind == Kind::existence) {
+            out = truth(is_set);
+            return text_.take(']') ? ProgramStatus{} : ProgramStatus(ProgramError::bracket_missing);
+        }
+        const bool fits =
+            out.raw <= Decimal::largest_raw && out.raw >= -Decimal::largest_raw; // a table may hold anything
+        if ((is_set || number > 0) && fits) {
+            return {};
+        }
+        text_.go_to(start);
+        return fits ? ProgramError::parameter_unset : ProgramError::number_out_of_range;
     }
 
     TextCursor& text_;
     SystemParameters system_;
     const ParameterTable& table_;
+    std::array<Pending, most_pending> pending_; // not initialised: a value needs hardly any of it
+    std::size_t count_ = 0;
+    unsigned depth_ = 0; // of the value that nothing waits for
 };
 
 } // namespace
 
 ProgramStatus Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
-    return Parser(text, control, *table_).value(out, 0);
+    return Parser(text, control, *table_).value(out);
 }
 
 ProgramStatus Expression::assignment(TextCursor& text, const BlockInterpreter& control) noexcept {
@@ -201,13 +259,13 @@ ProgramStatus Expression::assignment(TextCursor& text, const BlockInterpreter& c
     }
     Assignment& next = assignments_[static_cast<unsigned>(count_)];
     Parser parser(text, control, *table_);
-    if (const ProgramStatus status = parser.parameter_name(next.number, next.name, 0); !status.ok()) {
+    if (const ProgramStatus status = parser.parameter_name(next.number, next.name); !status.ok()) {
         return status;
     }
     if (!text.take('=')) {
         return ProgramError::assignment_invalid;
     }
-    if (const ProgramStatus status = parser.value(next.value, 0); !status.ok()) {
+    if (const ProgramStatus status = parser.value(next.value); !status.ok()) {
         return status;
     }
     Decimal unused;

@@ -12,7 +12,8 @@ namespace splinefeed {
 /// LN ROUND FIX FUP EXISTS. Parameters: #1, ##1, #[...], `#<name>`. All by integers alone: the same digits on every
 /// target. Angles are in degrees. Values lie within +-9.2e9 (Decimal::largest_raw) and have a resolution of 1e-9. Each
 /// operation is rounded to nearest. Functions are within 2e-9 of the exact value of their rounded argument, EXP and **
-/// also within 1e-15 of themselves. EQ and NE take values that differ by less than 1e-6 as equal.
+/// also within 1e-15 of themselves. EQ and NE take values that differ by less than 1e-6 as equal. No recursion: a
+/// value takes at most 1.7 KB of the stack of a Cortex-M4F.
 class Expression final : public WordEvaluator {
 public:
     static constexpr int most_assignments = 16; ///< of a block

@@ -26,22 +26,6 @@ bool is_global(std::string_view key) {
 
 } // namespace
 
-bool ParameterMemory::read(std::int32_t number, Decimal& out) const noexcept {
-    if (number < 0 || number > largest_number || !numbered_[static_cast<std::size_t>(number)].set) {
-        return false;
-    }
-    out = numbered_[static_cast<std::size_t>(number)].value;
-    return true;
-}
-
-bool ParameterMemory::write(std::int32_t number, Decimal value) noexcept {
-    if (number < 0 || number > largest_number) {
-        return false;
-    }
-    numbered_[static_cast<std::size_t>(number)] = {value, true};
-    return true;
-}
-
 bool ParameterMemory::read(std::string_view name, Decimal& out) const noexcept {
     try {
         const std::string key = normalized(name);
@@ -75,12 +59,6 @@ bool ParameterMemory::write(std::string_view name, Decimal value) noexcept {
     }
 }
 
-void ParameterMemory::forget(std::int32_t number) noexcept {
-    if (number >= 0 && number <= largest_number) {
-        numbered_[static_cast<std::size_t>(number)] = {};
-    }
-}
-
 void ParameterMemory::forget(std::string_view name) noexcept {
     try {
         const std::string key = normalized(name);
@@ -90,18 +68,16 @@ void ParameterMemory::forget(std::string_view name) noexcept {
 }
 
 void ParameterMemory::enter(const std::vector<Decimal>& arguments) {
-    const auto begin = numbered_.begin() + 1;
+    const auto begin = values_.begin();
     const auto end = begin + local_numbers;
     callers_.push_back({{begin, end}, std::move(named_)});
     named_.clear();
-    std::fill(begin, end, Value{{}, true});
-    for (std::size_t i = 0; i < std::min(arguments.size(), local_numbers); ++i) {
-        numbered_[i + 1] = {arguments[i], true};
-    }
+    std::fill(begin, end, Decimal{});
+    std::copy_n(arguments.begin(), std::min(arguments.size(), local_numbers), begin);
 }
 
 void ParameterMemory::leave() {
-    std::copy(callers_.back().numbered.begin(), callers_.back().numbered.end(), numbered_.begin() + 1);
+    std::copy(callers_.back().numbered.begin(), callers_.back().numbered.end(), values_.begin());
     named_ = std::move(callers_.back().named);
     callers_.pop_back();
 }

@@ -2,7 +2,7 @@
 // ParameterMemory: the parameters of a program, #1 to #5602 and #<name>.
 #pragma once
 
-#include "splinefeed/s0_program/text/parameter_table.hpp"
+#include "splinefeed/s0_program/text/numbered_parameters.hpp"
 
 #include <map>
 #include <string>
@@ -15,13 +15,17 @@ public:
     static constexpr std::int32_t largest_number = 5602;
     static constexpr std::size_t most_names = 10'000;
 
-    ParameterMemory() : numbered_(largest_number + 1) {}
+    ParameterMemory() = default;
+    ParameterMemory(const ParameterMemory&) = delete;
+    ParameterMemory& operator=(const ParameterMemory&) = delete;
 
-    [[nodiscard]] bool read(std::int32_t number, Decimal& out) const noexcept override;
-    bool write(std::int32_t number, Decimal value) noexcept override;
+    [[nodiscard]] bool read(std::int32_t number, Decimal& out) const noexcept override {
+        return numbered_.read(number, out);
+    }
+    bool write(std::int32_t number, Decimal value) noexcept override { return numbered_.write(number, value); }
     [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override;
     bool write(std::string_view name, Decimal value) noexcept override;
-    void forget(std::int32_t number) noexcept override;
+    void forget(std::int32_t number) noexcept override { numbered_.forget(number); }
     void forget(std::string_view name) noexcept override;
 
     /// A call begins: #1 to #30 are its arguments, and names without a leading _ are its own.
@@ -32,18 +36,14 @@ public:
 private:
     static constexpr std::size_t local_numbers = 30;
 
-    struct Value {
-        Decimal value{};
-        bool set = false;
-    };
-
     using Names = std::map<std::string, Decimal, std::less<>>;
     struct Saved {
-        std::vector<Value> numbered;
+        std::vector<Decimal> numbered;
         Names named;
     };
 
-    std::vector<Value> numbered_;
+    std::vector<Decimal> values_ = std::vector<Decimal>(largest_number); // of numbered_
+    NumberedParameters numbered_{values_};
     Names global_{{"_value", {}}, {"_value_returned", {}}}; // those with a leading _; 0 before any call, as in LinuxCNC
     Names named_;
     std::vector<Saved> callers_;

@@ -10,13 +10,20 @@ namespace {
 constexpr Decimal equal_within{1000}; // 1e-6
 
 constexpr OperatorRow operators[] = {
-    OperatorRow{"**", Operator::power, 5},      OperatorRow{"*", Operator::times, 4},
-    OperatorRow{"/", Operator::divided, 4},     OperatorRow{"mod", Operator::modulo, 4},
-    OperatorRow{"+", Operator::plus, 3},        OperatorRow{"-", Operator::minus, 3},
-    OperatorRow{"eq", Operator::eq, 2},         OperatorRow{"ne", Operator::ne, 2},
-    OperatorRow{"gt", Operator::gt, 2},         OperatorRow{"ge", Operator::ge, 2},
-    OperatorRow{"lt", Operator::lt, 2},         OperatorRow{"le", Operator::le, 2},
-    OperatorRow{"and", Operator::logic_and, 1}, OperatorRow{"or", Operator::logic_or, 1},
+    OperatorRow{"**", Operator::power, strongest_level},
+    OperatorRow{"*", Operator::times, 4},
+    OperatorRow{"/", Operator::divided, 4},
+    OperatorRow{"mod", Operator::modulo, 4},
+    OperatorRow{"+", Operator::plus, 3},
+    OperatorRow{"-", Operator::minus, 3},
+    OperatorRow{"eq", Operator::eq, 2},
+    OperatorRow{"ne", Operator::ne, 2},
+    OperatorRow{"gt", Operator::gt, 2},
+    OperatorRow{"ge", Operator::ge, 2},
+    OperatorRow{"lt", Operator::lt, 2},
+    OperatorRow{"le", Operator::le, 2},
+    OperatorRow{"and", Operator::logic_and, 1},
+    OperatorRow{"or", Operator::logic_or, 1},
     OperatorRow{"xor", Operator::logic_xor, 1},
 };
 

@@ -27,7 +27,9 @@ enum class Operator : std::uint8_t {
     logic_xor
 };
 
-/// An operator with its level: 1 binds least, 5 (**) most.
+inline constexpr int strongest_level = 5;
+
+/// An operator with its level: 1 binds least, strongest_level (**) most.
 struct OperatorRow {
     std::string_view text;
     Operator name;
