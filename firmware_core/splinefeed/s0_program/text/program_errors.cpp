@@ -78,6 +78,10 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::parameter_unset, "the parameter has no value yet; set it first, or ask EXISTS[#<name>]"},
     {ProgramError::parameter_read_only, "the parameter is the control's, and cannot be set"},
     {ProgramError::parameter_storage_full, "the parameter cannot be stored: no room, or its value is out of range"},
+    {ProgramError::parameter_refused,
+     "the variable is of the machine, its operator or the time, or cannot be set: it has no value here"},
+    {ProgramError::logic_ambiguous, "beside another operator AND, OR and XOR need brackets of their own, as in "
+                                    "[#1 EQ 1] AND [#2 EQ 2]"},
     {ProgramError::too_many_assignments, "a block sets at most 16 parameters"},
     {ProgramError::assignment_invalid, "a parameter is set by '=', as in #1 = 2.5"},
     {ProgramError::axis_missing, "the machine has no such axis"},
