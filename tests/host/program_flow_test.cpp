@@ -301,8 +301,9 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
         CHECK(run("o1 call\nM30\no1 sub\nM99\no1 endsub", programs).find("p.ngc:4:1: M99 ends a subprogram") == 0);
         CHECK(run("M98 L2", programs).find("p.ngc:1:1: M98 needs P") == 0);
     }
-    CHECK(run("M98 P1\nM30\no1\nM99") == " error O words, M70 to M73, M98 and M99 need the file; they are read by "
-                                         "the host, in a line of their own");
+    CHECK(run("M98 P1\nM30\no1\nM99") ==
+          " error O words, M70 to M73, M97 to M99 and G65 need the file; they are read by "
+          "the host, in a line of their own");
 }
 
 TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write them") {

@@ -32,15 +32,26 @@ enum class FlowKind : std::uint8_t {
     forget_modes,  ///< M71
     restore_modes, ///< M72
     lend_modes,    ///< M73: they are put back where the subprogram ends
+    // Of Fanuc's custom macro B.
+    call_line,  ///< M97
+    call_macro, ///< G65
+    jump,       ///< GOTO
+    jump_if,    ///< IF [...] GOTO
+    then,       ///< IF [...] THEN
+    loop,       ///< WHILE [...] DO1, DO1
+    end_loop,   ///< END1
+    alarm,      ///< #3000=1 (TEXT): it ends the program
+    message,    ///< #3006=1 (TEXT): it stops it
 };
 
 struct FlowWord {
     FlowKind kind = FlowKind::sub;
-    std::string label;       ///< "100", or a name in lower case without spaces; empty: it is an expression
+    std::string label;       ///< "100", a name in lower case without spaces, or "DO1"; empty: it is an expression
     std::size_t label_at;    ///< offset of the label in the line
     std::size_t rest;        ///< offset of what stands behind the keyword; of M98: of the number behind L; 0: none
     bool has_number = false; ///< of M98 and M99: P
     std::string others{};    ///< what else the line of an M word says, each word at its place; empty: nothing
+    std::size_t behind = 0;  ///< of IF: offset of what stands behind GOTO or THEN
 };
 
 /// Whether a line begins with an O word, behind an N number at most.

@@ -46,7 +46,9 @@ void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
 void ProgramFlow::leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text) {
     const auto called =
         std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& frame) { return frame.call != Call::none; });
-    if (called == frames_.rend() || called->call != call) {
+    const bool fits =
+        called != frames_.rend() && (called->call == call || (call == Call::program && called->call == Call::macro));
+    if (!fits) {
         fail(line, word.label_at, text);
     }
     while (frames_.back().call == Call::none) {
@@ -74,10 +76,20 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
         times = std::stoll(number.substr(0, number.size() - digits));
         number.erase(0, number.size() - digits);
         number.erase(0, std::min(number.find_first_not_of('0'), digits - 1));
-        code = find_sub(program_label(number));
     }
-    if (code == nullptr && lost_.contains(program_label(number))) {
-        return;
+    code = find_program(number, word, line);
+    if (code != nullptr && times > 0) {
+        frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
+    }
+}
+
+// Null: it waits for the input, or what is wrong with it has been told.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_program(const std::string& number, const FlowWord& word,
+                                                           const SourceLine& line) {
+    const std::string label = program_label(number);
+    auto code = find_sub(label);
+    if (code == nullptr && (lost_.contains(label) || wait_for_input(word, line))) {
+        return nullptr;
     }
     if (code == nullptr) {
         fail(line, word.label_at, "there is no subprogram O{} behind this line; those of other files are not read",
@@ -86,9 +98,7 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
     if (frames_.size() >= deepest) {
         fail(line, word.label_at, "calls are nested more than {} deep", deepest);
     }
-    if (times > 0) {
-        frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
-    }
+    return code;
 }
 
 // M99.
@@ -96,18 +106,29 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
         fail(line, word.label_at, "M99 stands alone in its line");
     }
-    if (word.has_number) {
+    const bool is_main =
+        std::ranges::all_of(frames_, [](const Frame& frame) { return frame.call == Call::none; }) && !passed_program_;
+    if (rules_.macros && is_main) {
+        end_main(word, line);
+        return;
+    }
+    if (word.has_number && !rules_.macros) {
         fail(line, word.label_at, "M99 P, which goes on at another line of the caller, is not supported");
     }
     leave_to(Call::program, word, line,
              "M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it");
+    if (word.has_number) {
+        return_to(word, line);
+        return;
+    }
     Frame& frame = frames_.back();
     if (frame.more == 0) {
         leave_frame();
         return;
     }
+    require_same_locals(word, line);
     --frame.more;
-    frame.at = 1;
+    frame.at = frame.again;
     frame.repeats.clear();
 }
 
@@ -145,12 +166,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
 std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std::size_t end) {
     auto block = std::make_shared<FlowBlock>(++blocks_);
     for (std::size_t i = begin; i < end; ++i) {
-        const SourceLine& line = ahead_[i];
-        try {
-            has_word(line.text) ? block->add(line, word_of(line)) : block->add(line);
-        } catch (const WordError& error) {
-            report(error, line.number);
-        }
+        add_to(*block, ahead_[i]);
     }
     if (report_problems(*block, block->link())) {
         return block;
@@ -158,12 +174,8 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std
     if (block->place(0)->wrong) {
         return nullptr;
     }
-    auto rest = std::make_shared<FlowBlock>(++blocks_);
-    for (const Again& again : without_wrong(*block)) {
-        again.word ? rest->add(again.line, *again.word) : rest->add(again.line);
-    }
-    static_cast<void>(rest->link());
-    return rest;
+    std::size_t first = 0;
+    return rest_of(*block, first);
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
@@ -207,8 +219,7 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
     const Waiting call = *std::exchange(waits_, std::nullopt);
     out = call.line;
     try {
-        call.word.kind == FlowKind::call ? execute_call(call.word, call.line)
-                                         : execute_program_call(call.word, call.line);
+        begin(call.word, call.line);
     } catch (const WordError& error) {
         report(error, out.number);
     }
@@ -216,7 +227,11 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
 }
 
 // The words beside M98 and M99, which are executed before what these lead to.
-ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out) const {
+ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out) {
+    if (!given_.empty()) {
+        out.text = std::exchange(given_, {});
+        return Step::line;
+    }
     if (word.others.empty() || rules_.programs != NumberedPrograms::fanuc || waits_) {
         return Step::nothing;
     }

@@ -142,6 +142,7 @@ struct CodeRows {
         Row{331, 331, motion, ProgramError::thread_unsupported, in_fanuc},
         Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
+        Row{650, 650, stop, ProgramError::none, in_fanuc, order}, // a call, as M98 is
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
         Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},
@@ -154,7 +155,8 @@ struct CodeRows {
         Row{47, 47, stop, ProgramError::macro_unsupported, in_fanuc},
         Row{70, 73, spindle, ProgramError::m_code_unknown, in_fanuc}, // of the machine's builder
         Row{70, 73, spindle, ProgramError::modal_state_unsupported, in_grbl | in_printers, placing},
-        Row{96, 97, stop, ProgramError::macro_unsupported, in_fanuc},
+        Row{96, 96, stop, ProgramError::macro_unsupported, in_fanuc},
+        Row{97, 97, stop, ProgramError::none, in_fanuc},
         Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl | in_printers},
         Row{198, 198, stop, ProgramError::macro_unsupported, in_fanuc},
         // Of printers: other files, loops and macros; an emergency stop, and the end of a print.

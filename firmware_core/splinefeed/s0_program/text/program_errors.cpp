@@ -28,7 +28,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::m_code_unknown, "there is no such M word"},
     {ProgramError::not_in_dialect, "this dialect does not have the word"},
     {ProgramError::o_word,
-     "O words, M70 to M73, M98 and M99 need the file; they are read by the host, in a line of their own"},
+     "O words, M70 to M73, M97 to M99 and G65 need the file; they are read by the host, in a line of their own"},
     {ProgramError::condition_not_open, "no O word if of this label is open, or its else has been"},
     {ProgramError::conditions_too_deep, "there are more than 10 conditions within each other"},
     {ProgramError::checksum_wrong, "the checksum behind * is not that of the line"},
