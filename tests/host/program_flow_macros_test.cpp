@@ -208,7 +208,7 @@ TEST_CASE("Jumps back reach as far as the program is kept") {
     CHECK(run(far + "IF [#1 LT 3] GOTO 1") == " 1 1 1");
     CHECK(run(far + "(line)\nIF [#1 LT 3] GOTO 1")
               .find("there is no block N1 in this program; jumps back lead over at "
-                    "most 65536 lines before the first one") != std::string::npos);
+                    "most 16384 lines before the first one") != std::string::npos);
 }
 
 TEST_CASE("A jump costs the same in a long program") {

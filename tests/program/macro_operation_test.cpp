@@ -70,6 +70,7 @@ TEST_CASE("A vacant parameter is 0 in arithmetic, and has no value where it is a
     CHECK(assigned("#9 MOD 5") == "0");
     CHECK(assigned("EXISTS[#9]") == "0");
     CHECK(assigned("1/#9") == describe(ProgramError::division_by_zero));
+    CHECK(assigned("##9") == describe(ProgramError::parameter_out_of_range));
     CHECK(assigned("#[#9]") == describe(ProgramError::parameter_out_of_range));
 }
 

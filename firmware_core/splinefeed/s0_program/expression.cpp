@@ -57,6 +57,7 @@ public:
     /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
     ProgramStatus parameter_name(std::int32_t& number, std::string_view& name) noexcept {
         number = 0;
+        name = {};
         text_.step(); // the #
         if (text_.peek() == '<') {
             return take_name(name);
@@ -248,7 +249,8 @@ private:
     }
 
     ProgramStatus to_number(Decimal value, std::size_t start, std::int32_t& number) noexcept {
-        if (!to_integer(value, number) || number < (macros_ ? 0 : 1) || (!macros_ && number > most_parameters)) {
+        if (value == vacant || !to_integer(value, number) || number < (macros_ ? 0 : 1) ||
+            (!macros_ && number > most_parameters)) {
             text_.go_to(start);
             return ProgramError::parameter_out_of_range;
         }

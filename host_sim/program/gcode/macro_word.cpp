@@ -40,9 +40,11 @@ bool take_stop(TextCursor& text, FlowKind& kind) noexcept {
     if (!text.take('#')) {
         return false;
     }
-    const std::optional<std::uint32_t> number = read_digits(text);
-    kind = number == 3000U ? FlowKind::alarm : FlowKind::message;
-    return (number == 3000U || number == 3006U) && text.take('=');
+    constexpr std::uint32_t alarm = 3000;
+    constexpr std::uint32_t message = 3006;
+    const std::uint32_t number = read_digits(text).value_or(0);
+    kind = number == alarm ? FlowKind::alarm : FlowKind::message;
+    return (number == alarm || number == message) && text.take('=');
 }
 
 bool take_g65(TextCursor& text) noexcept {

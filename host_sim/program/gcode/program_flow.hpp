@@ -31,8 +31,8 @@ public:
     static constexpr std::uint64_t most_repeated = 10'000;  ///< times that a block may come to problems that are known
     static constexpr std::size_t deepest = 30;              ///< calls within calls
     static constexpr std::int32_t most_arguments = 30;
-    static constexpr std::size_t most_lines_back = 65'536;   ///< of a program, kept for jumps back until the first jump
-    static constexpr std::size_t most_text_back = 4U << 20U; ///< characters of them
+    static constexpr std::size_t most_lines_back = 16'384;   ///< of a program, kept for jumps back until the first jump
+    static constexpr std::size_t most_text_back = 1U << 20U; ///< characters of them
 
     enum class Step : std::uint8_t {
         line,    ///< execute it
