@@ -56,6 +56,10 @@ constexpr Sign word_signs[] = {
     {"g28u", Dialect::fanuc, 5},   {"g28w", Dialect::fanuc, 5},   {"g28v", Dialect::fanuc, 5},
 };
 
+// What a line of a macro begins with behind its number. No other dialect reads such a program, whatever else it has.
+constexpr std::string_view macro_signs[] = {"if[", "while[", "g65p", "m97p", "#3000=", "#3006="};
+constexpr int macro_points = 2000;
+
 bool is_figure(char c) noexcept {
     return c >= '0' && c <= '9';
 }
@@ -79,6 +83,13 @@ bool has_word(std::string_view code, std::string_view word) noexcept {
         }
     }
     return false;
+}
+
+bool is_macro(std::string_view code) noexcept {
+    if (code.front() == 'n') {
+        code.remove_prefix(std::min(code.find_first_not_of("0123456789", 1), code.size()));
+    }
+    return std::ranges::any_of(macro_signs, [&](std::string_view sign) { return code.starts_with(sign); });
 }
 
 } // namespace
@@ -111,6 +122,10 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
     const std::string_view macro = macro_name(code);
     if (!macro.empty() && (macro.find('_') != std::string_view::npos || is_still_macro(macro))) {
         count(Dialect::klipper, 20, macro, line);
+        return;
+    }
+    if (is_macro(text)) {
+        count(Dialect::fanuc, macro_points, code, line);
         return;
     }
     if (text[0] == '$') {
