@@ -35,7 +35,6 @@ constexpr Sign comment_signs[] = {
     {"emc2", Dialect::linuxcnc, 40},
     {"fanuc", Dialect::fanuc, 40},
     {"haas", Dialect::fanuc, 40},
-    {"mach3", Dialect::linuxcnc, 10},
     {"shapeoko", Dialect::grbl, 10},
     {"x-carve", Dialect::grbl, 10},
     {"easel", Dialect::grbl, 10},
@@ -75,8 +74,9 @@ constexpr Sign word_signs[] = {
     {"m68", Dialect::linuxcnc, 5}, {"g33.1", Dialect::linuxcnc, 5},
 };
 
-// What a line of Fanuc's custom macro B begins with.
-constexpr std::string_view macro_b_words[] = {"if[", "while[", "goto", "do1", "do2", "do3", "end1", "end2", "end3"};
+// What a line of a macro begins with behind its number. No other dialect reads such a program, whatever else it has.
+constexpr std::string_view macro_signs[] = {"if[", "while[", "g65p", "m97p", "#3000=", "#3006="};
+constexpr int macro_points = 2000;
 
 bool is_figure(char c) noexcept {
     return c >= '0' && c <= '9';
@@ -109,6 +109,13 @@ bool is_bare(std::string_view plain) noexcept {
     const std::size_t letter = at == std::string_view::npos ? at : plain.find_first_of("xyz", at);
     return plain == "g5" || (letter != std::string_view::npos &&
                              (letter + 1 == plain.size() || (plain[letter + 1] >= 'a' && plain[letter + 1] <= 'z')));
+}
+
+bool is_macro(std::string_view code) noexcept {
+    if (code.front() == 'n') {
+        code.remove_prefix(std::min(code.find_first_not_of("0123456789", 1), code.size()));
+    }
+    return std::ranges::any_of(macro_signs, [&](std::string_view sign) { return code.starts_with(sign); });
 }
 
 } // namespace
@@ -144,21 +151,22 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
         count(Dialect::klipper, 20, macro, line);
         return;
     }
+    if (is_macro(text)) {
+        count(Dialect::fanuc, macro_points, code, line);
+        return;
+    }
     if (text[0] == '$') {
         count(Dialect::grbl, 20, code, line);
         return;
     }
     // A number of the program, and nothing else, is Fanuc's; LinuxCNC takes it, too.
     const bool numbered = text.size() > 1 && text[0] == 'o' && std::all_of(text.begin() + 1, text.end(), is_figure);
-    const bool macro_b =
-        std::ranges::any_of(macro_b_words, [&](std::string_view word) { return text.starts_with(word); });
-    if (numbered || macro_b) {
-        count(Dialect::fanuc, numbered && !percent_ ? 3 : 5, code, line);
+    if (numbered) {
+        count(Dialect::fanuc, percent_ ? 5 : 3, code, line);
     } else if (text[0] == 'o' || text.find("#<") != std::string::npos) {
         count(Dialect::linuxcnc, 5, code, line);
         return;
-    } else if (text[0] == '#' ||
-               text.find('[') != std::string::npos) { // LinuxCNC's, or Fanuc's where something else says so
+    } else if (text[0] == '#' || text.find('[') != std::string::npos) { // Fanuc's where something else says so
         count(Dialect::linuxcnc, 3, code, line);
         return;
     }

@@ -46,6 +46,11 @@ TEST_CASE("Words that one controller alone has decide") {
     CHECK(guess("G28 Z P0 T140\nG1 X5").dialect() == Dialect::marlin);
     CHECK(guess("G5\nG1 X5").dialect() == Dialect::marlin);
     CHECK(guess("G28\nG28 X0 Y0\nT1010\nT11 M6").dialect() == Dialect::fanuc);
+    CHECK(guess("#1=[1+2]\n#2=#1+1\nN10 WHILE [#1 LT 5] DO1").reason() == "'N10 WHILE [#1 LT 5] DO1' on line 3");
+    for (const char* line : {"IF[#1 EQ #0]GOTO 5", "n5 G65 P9010 A1", "M97 P100", "#3000=1 (STOP)", "#3006=1"}) {
+        CHECK(guess("#1=[1]\nG64 P0.01\n" + std::string(line)).dialect() == Dialect::fanuc);
+    }
+    CHECK(guess("IF R1==5 GOTOF A\n#1=[1]").dialect() == Dialect::linuxcnc);
     CHECK(guess("o<a> sub\no<a> endsub\nG1 X[1+2]").dialect() == Dialect::linuxcnc);
 }
 

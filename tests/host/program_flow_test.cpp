@@ -300,8 +300,9 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
         CHECK(run("o1 call\nM30\no1 sub\nM99\no1 endsub", programs).find("p.ngc:4:1: M99 ends a subprogram") == 0);
         CHECK(run("M98 L2", programs).find("p.ngc:1:1: M98 needs P") == 0);
     }
-    CHECK(run("M98 P1\nM30\no1\nM99") == " error O words, M70 to M73, M98 and M99 need the file; they are read by "
-                                         "the host, in a line of their own");
+    CHECK(run("M98 P1\nM30\no1\nM99") ==
+          " error O words, M70 to M73, M97 to M99 and G65 need the file; they are read by "
+          "the host, in a line of their own");
 }
 
 TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write them") {
@@ -365,15 +366,4 @@ TEST_CASE("M99 ends a main program, which controls would begin again") {
     }
     CHECK(run("G0 X1 M99", NumberedPrograms::fanuc) == " 1 end");
     CHECK(run("G0 X1\n(M30)\n/M99\n; M2", NumberedPrograms::fanuc) == " 1 end");
-}
-
-TEST_CASE("M97 calls lines by their number, up to M99") {
-    const auto fanuc = NumberedPrograms::fanuc;
-    CHECK(run("G91 G0 X1\nM97 P100 L2\nX5\nM30\nN0100 X10\nX20\nM99\nN200 X50\nM99", fanuc) == " 1 11 31 41 61 66 end");
-    CHECK(run("G91 G0 X1 M97 P7\nM97 P7\nM30\nN7 X2 M99", fanuc) == " 1 3 5 end");
-    CHECK(run("G91 M98 P3\nM30\nO3\nG0 X1 M97 P9\nM99\nN9 X4\nM99", fanuc) == " 1 5 end");
-    CHECK(run("N5 G0 X1\nM97 P5\nM30", fanuc) == "p.ngc:2:6: there is no line N5 behind this one");
-    CHECK(run("M97 L2", fanuc).find("p.ngc:1:1: M97 needs P") == 0);
-    CHECK(run("M97 P1\nM30\nN1 G0 X1", fanuc).find("has no M99 at its end") != std::string::npos);
-    CHECK(run("M97 P5\nN5 M99", NumberedPrograms::linuxcnc).find("error") != std::string::npos);
 }

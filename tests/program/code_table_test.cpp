@@ -59,7 +59,7 @@ TEST_CASE("what changes the path, its place or the order of blocks is not left o
         {Dialect::fanuc, {'G', 682}, "G68.2 X0 Y0 Z0 I1 J2 K3", ProgramError::coordinates_unsupported},
         {Dialect::fanuc, {'G', 541}, "G54.1 P3", ProgramError::coordinates_unsupported},
         {Dialect::fanuc, {'G', 1540}, "G154 P3", ProgramError::coordinates_unsupported},
-        {Dialect::fanuc, {'G', 650}, "G65 P9010 A1", ProgramError::macro_unsupported},
+        {Dialect::fanuc, {'G', 650}, "G65 P9010 A1", ProgramError::ignored_word_counts},
         {Dialect::fanuc, {'M', 970}, "M97 P100", ProgramError::ignored_word_counts},
         {Dialect::fanuc, {'M', 960}, "M96 P100 Q3", ProgramError::macro_unsupported},
         {Dialect::fanuc, {'M', 1980}, "M198 P100", ProgramError::macro_unsupported},

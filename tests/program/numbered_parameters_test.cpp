@@ -28,7 +28,7 @@ TEST_CASE("parameters have no value until one is written, and none again when it
 
 TEST_CASE("there is no room for parameters beyond the memory, nor for names", "[program]") {
     std::array<Decimal, 5> memory{};
-    NumberedParameters parameters(std::span(memory).subspan(1, 3));
+    NumberedParameters parameters(std::span<Decimal>(memory).subspan(1, 3));
     Decimal value;
     for (const std::int32_t number : {-1, 0, 4, 5602}) {
         CHECK_FALSE(parameters.write(number, {5}));

@@ -10,7 +10,7 @@ namespace splinefeed {
 
 namespace {
 
-// What is wrong is a word: its letters and digits.
+// What is wrong is a word or a parameter: its letter, or #, and digits.
 std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
     const auto is_part = [](char c) {
         return (c >= '0' && c <= '9') || c == '.' || c == ' ';
@@ -19,10 +19,10 @@ std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
         return 0;
     }
     const char first = text[column - 1U];
-    const bool is_letter =
-        (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '@' || first == '^';
+    const bool has_number = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '@' ||
+                            first == '^' || first == '#';
     std::size_t end = column;
-    while (is_letter && end < text.size() && is_part(text[end])) {
+    while (has_number && end < text.size() && is_part(text[end])) {
         ++end;
     }
     while (end > column && text[end - 1] == ' ') {

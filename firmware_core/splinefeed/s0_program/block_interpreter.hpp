@@ -42,6 +42,7 @@ public:
     void restore(const WorkOffsets& offsets) noexcept;
     [[nodiscard]] const WorkOffsets& offsets() const noexcept { return frame_.offsets(); }
     [[nodiscard]] const ModalState& modal() const noexcept { return modal_; }
+    [[nodiscard]] const DialectRules& rules() const noexcept { return rules_of(settings_.dialect); }
 
     /// Executes a line. After an error nothing of the line has happened, and the next line may follow. Nothing
     /// refers to the text after the call; an event says which part of it is its own. @pre next() has returned starved,
@@ -88,7 +89,6 @@ protected:
     /// Whether the block ends or pauses the program behind its motion.
     [[nodiscard]] bool stops_behind() const noexcept { return block_.has(CodeGroup::stop); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
-    [[nodiscard]] const DialectRules& rules() const noexcept { return rules_of(settings_.dialect); }
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Operators of one level associate to the left, from the strongest: **, then * / MOD, then + -, then comparisons, then
-// AND OR XOR; the language of the RS274/NGC report with LinuxCNC's comparisons.
+// AND OR XOR; the language of the RS274/NGC report with LinuxCNC's comparisons. In dialects with macros the same, where
+// it is that of Fanuc's custom macro B, too: what differs is in macro_operation, and what is read otherwise is refused.
 #include "splinefeed/s0_program/expression.hpp"
 
 #include "splinefeed/s0_program/system_parameters.hpp"
 #include "splinefeed/s0_program/text/decimal_text.hpp"
 #include "splinefeed/s0_program/text/elementary.hpp"
-#include "splinefeed/s0_program/text/operation.hpp"
+#include "splinefeed/s0_program/text/macro_operation.hpp"
 
 namespace splinefeed {
 
@@ -19,12 +20,19 @@ bool is_letter(char c) noexcept {
     return c >= 'a' && c <= 'z';
 }
 
+// What ROUND rounds to in dialects with macros: in the word of a coordinate the least one that a control is told.
+Decimal unit_of(char letter, bool inches) noexcept {
+    const bool angle = letter >= 'a' && letter <= 'c';
+    const bool length = (letter >= 'i' && letter <= 'k') || letter == 'q' || letter == 'r' || letter >= 'u';
+    return {length && inches ? Decimal::one / 10'000 : length || angle ? Decimal::one / 1'000 : Decimal::one};
+}
+
 /// Reads values; holds what they refer to. No function calls itself, so that the stack has a bound: what waits for a
 /// value is kept beside.
 class Parser {
 public:
-    Parser(TextCursor& text, const BlockInterpreter& control, const ParameterTable& table) noexcept
-        : text_(text), system_(control), table_(table) {}
+    Parser(TextCursor& text, const BlockInterpreter& control, const ParameterTable& table, Decimal unit) noexcept
+        : text_(text), system_(control), table_(table), unit_(unit), macros_(control.rules().macros) {}
 
     /// A value: a number, #..., [...] or a function, with a sign or without. `depth`: of what it stands in.
     ProgramStatus value(Decimal& out, unsigned depth = 0) noexcept {
@@ -37,9 +45,19 @@ public:
         return status;
     }
 
+    /// What is assigned: in dialects with macros an expression, too.
+    ProgramStatus assigned(Decimal& out) noexcept {
+        depth_ = 0;
+        if (macros_) {
+            wait(Kind::whole, text_.at());
+        }
+        return value(out);
+    }
+
     /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
     ProgramStatus parameter_name(std::int32_t& number, std::string_view& name) noexcept {
         number = 0;
+        name = {};
         text_.step(); // the #
         if (text_.peek() == '<') {
             return take_name(name);
@@ -60,6 +78,7 @@ private:
         divisor,   ///< the second bracket of ATAN; the first one's value is `left`
         parameter, ///< the number behind #
         existence, ///< the same, in EXISTS
+        whole,     ///< an expression without brackets
     };
     /// What waits for a value. Raw, since a Decimal would initialise all of them.
     struct Pending {
@@ -68,7 +87,7 @@ private:
         Kind kind;
         std::uint8_t depth; // of the value
         std::uint8_t level; // of an operation, else 0
-        Operator operation;
+        Operator operation; // of brackets in dialects with macros: AND, OR or XOR stands in them, or another operator
         Function function;
     };
     // At each depth one, and if it is a bracket an operator of each level; at the last one none is read.
@@ -138,17 +157,21 @@ private:
     ProgramStatus use(Decimal& out, bool& complete) noexcept {
         const Pending top = pending_[count_ - 1];
         switch (top.kind) {
-        case Kind::minus: out = -out; [[fallthrough]];
+        case Kind::minus: out = out == vacant ? out : -out; [[fallthrough]];
         case Kind::plus: --count_; return {};
         case Kind::parameter:
         case Kind::existence: --count_; return use_number(top, out);
         case Kind::operation:
         case Kind::bracket:
         case Kind::function:
-        case Kind::divisor: break;
+        case Kind::divisor:
+        case Kind::whole: break;
         }
         TextCursor ahead = text_;
         const OperatorRow* const next = take_operator(ahead);
+        if (next != nullptr && macros_ && mixes_logic(next->name)) {
+            return ProgramError::logic_ambiguous;
+        }
         if (next != nullptr && next->level > top.level) {
             Pending& operation = wait(Kind::operation, text_.at());
             operation.operation = next->name;
@@ -159,8 +182,31 @@ private:
             return {};
         }
         --count_;
-        return top.kind == Kind::operation ? placed(top, apply(top.operation, {top.left}, out, out))
+        if (top.kind == Kind::whole) {
+            return {};
+        }
+        return top.kind == Kind::operation ? placed(top, operate(top.operation, {top.left}, out))
                                            : close(top, out, complete);
+    }
+
+    ProgramStatus operate(Operator name, Decimal left, Decimal& out) const noexcept {
+        return macros_ ? apply_macro(name, left, out, out) : apply(name, left, out, out);
+    }
+
+    ProgramStatus call(Function name, Decimal& out) const noexcept {
+        return macros_ ? apply_macro(name, out, unit_, out) : apply(name, out, out);
+    }
+
+    // Controls do not agree on what binds more: AND, OR and XOR beside others within the same brackets.
+    bool mixes_logic(Operator next) noexcept {
+        std::size_t at = count_ - 1;
+        while (at > 0 && pending_[at].kind == Kind::operation) {
+            --at;
+        }
+        const Operator kind = is_logic(next) ? next : Operator::plus;
+        Operator& known = pending_[at].operation;
+        known = known == Operator::none ? kind : known;
+        return known != kind;
     }
 
     // Its ].
@@ -169,14 +215,15 @@ private:
             return text_.at_end() ? ProgramError::bracket_missing : ProgramError::operator_unknown;
         }
         if (top.kind == Kind::divisor) {
-            out = angle_of(out, {top.left});
+            out = angle_of(macros_ ? value_or_zero(out) : out, {top.left});
+            out = macros_ ? positive_angle(out) : out;
         } else if (top.kind == Kind::function && top.function != Function::atan) {
-            return placed(top, apply(top.function, out, out));
+            return placed(top, call(top.function, out));
         } else if (top.kind == Kind::function) {
             if (!text_.take('/') || !text_.take('[')) {
                 return ProgramError::atan_needs_two;
             }
-            wait(Kind::divisor, text_.at()).left = out.raw;
+            wait(Kind::divisor, text_.at()).left = macros_ ? value_or_zero(out).raw : out.raw;
             complete = false;
         }
         return {};
@@ -202,7 +249,8 @@ private:
     }
 
     ProgramStatus to_number(Decimal value, std::size_t start, std::int32_t& number) noexcept {
-        if (!to_integer(value, number) || number < 1 || number > most_parameters) {
+        if (value == vacant || !to_integer(value, number) || number < (macros_ ? 0 : 1) ||
+            (!macros_ && number > most_parameters)) {
             text_.go_to(start);
             return ProgramError::parameter_out_of_range;
         }
@@ -222,16 +270,24 @@ private:
     ProgramStatus find(Kind kind, std::size_t start, std::int32_t number, std::string_view name,
                        Decimal& out) noexcept {
         const bool owned = SystemParameters::owns(number);
+        if (macros_ && table_.refuses(number, ParameterAccess::read, owned)) {
+            text_.go_to(start);
+            return ProgramError::parameter_refused;
+        }
         out = owned ? system_.read(number) : Decimal{};
         const bool is_set =
-            owned || (number > 0 ? table_.read(number, out) : system_.read(name, out) || table_.read(name, out));
+            owned || (name.empty() ? table_.read(number, out) : system_.read(name, out) || table_.read(name, out));
+        if (macros_ && kind == Kind::parameter && (is_set ? out == vacant : name.empty())) {
+            out = vacant;
+            return {};
+        }
         if (kind == Kind::existence) {
-            out = truth(is_set);
+            out = truth(is_set && out != vacant);
             return text_.take(']') ? ProgramStatus{} : ProgramStatus(ProgramError::bracket_missing);
         }
         const bool fits =
             out.raw <= Decimal::largest_raw && out.raw >= -Decimal::largest_raw; // a table may hold anything
-        if ((is_set || number > 0) && fits) {
+        if ((is_set || name.empty()) && fits) {
             return {};
         }
         text_.go_to(start);
@@ -241,6 +297,8 @@ private:
     TextCursor& text_;
     SystemParameters system_;
     const ParameterTable& table_;
+    Decimal unit_; // of ROUND
+    bool macros_;
     std::array<Pending, most_pending> pending_; // not initialised: a value needs hardly any of it
     std::size_t count_ = 0;
     unsigned depth_ = 0; // of the value that nothing waits for
@@ -248,8 +306,8 @@ private:
 
 } // namespace
 
-ProgramStatus Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
-    return Parser(text, control, *table_).value(out);
+ProgramStatus Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out, char letter) noexcept {
+    return Parser(text, control, *table_, unit_of(letter, control.modal().inches)).value(out);
 }
 
 ProgramStatus Expression::assignment(TextCursor& text, const BlockInterpreter& control) noexcept {
@@ -258,20 +316,26 @@ ProgramStatus Expression::assignment(TextCursor& text, const BlockInterpreter& c
         return ProgramError::too_many_assignments;
     }
     Assignment& next = assignments_[static_cast<unsigned>(count_)];
-    Parser parser(text, control, *table_);
+    Parser parser(text, control, *table_, {Decimal::one});
     if (const ProgramStatus status = parser.parameter_name(next.number, next.name); !status.ok()) {
         return status;
     }
     if (!text.take('=')) {
         return ProgramError::assignment_invalid;
     }
-    if (const ProgramStatus status = parser.value(next.value); !status.ok()) {
+    if (const ProgramStatus status = parser.assigned(next.value); !status.ok()) {
         return status;
     }
     Decimal unused;
     const bool owned = SystemParameters::owns(next.number);
-    if (next.number > 0 ? owned && !SystemParameters::can_write(next.number)
-                        : SystemParameters(control).read(next.name, unused)) {
+    const bool numbered = next.name.empty();
+    if (numbered && control.rules().macros &&
+        (next.number == 0 || table_->refuses(next.number, ParameterAccess::write, owned))) {
+        text = start;
+        return ProgramError::parameter_refused;
+    }
+    if (numbered ? owned && !SystemParameters::can_write(next.number)
+                 : SystemParameters(control).read(next.name, unused)) {
         text = start;
         return ProgramError::parameter_read_only;
     }

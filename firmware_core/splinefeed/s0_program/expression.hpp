@@ -12,8 +12,9 @@ namespace splinefeed {
 /// LN ROUND FIX FUP EXISTS. Parameters: #1, ##1, #[...], `#<name>`. All by integers alone: the same digits on every
 /// target. Angles are in degrees. Values lie within +-9.2e9 (Decimal::largest_raw) and have a resolution of 1e-9. Each
 /// operation is rounded to nearest. Functions are within 2e-9 of the exact value of their rounded argument, EXP and **
-/// also within 1e-15 of themselves. EQ and NE take values that differ by less than 1e-6 as equal. No recursion: a
-/// value takes at most 1.7 KB of the stack of a Cortex-M4F.
+/// also within 1e-15 of themselves. EQ and NE take values that differ by less than 1e-6 as equal. In dialects with
+/// macros operators and functions are those of macro_operation, values may be `vacant`, and an assignment takes an
+/// expression without brackets. No recursion: a value takes at most 1.7 KB of the stack of a Cortex-M4F.
 class Expression final : public WordEvaluator {
 public:
     static constexpr int most_assignments = 16; ///< of a block
@@ -22,7 +23,8 @@ public:
     /// `table` must outlive it.
     explicit Expression(ParameterTable& table) noexcept : table_(&table) {}
 
-    ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
+    using WordEvaluator::value;
+    ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out, char letter) noexcept override;
     ProgramStatus assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
     [[nodiscard]] bool has_assignments() const noexcept override { return count_ > 0; }
     ProgramStatus commit() noexcept override;

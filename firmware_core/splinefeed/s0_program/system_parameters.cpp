@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Axes are numbered X Y Z A B C U V W. Lengths are in mm, but #5401 and #5420 ff. in the units of the program, and
-// #5061 ff. in those that it had when it probed.
+// #5061 ff. in those that it had when it probed. In dialects with macros #5221 ff. are in those of the program, too.
 #include "splinefeed/s0_program/system_parameters.hpp"
 
 namespace splinefeed {
@@ -91,7 +91,9 @@ Decimal SystemParameters::read(std::int32_t number) const noexcept {
         const WorkSystem& system =
             offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
         const std::int32_t index = (place.index - 1) % system_step;
-        return index == 9 ? system.rotation_deg : of_axis(system.origin, index);
+        const bool converts = interpreter_->rules().macros;
+        const Decimal origin = of_axis(system.origin, index);
+        return index == 9 ? system.rotation_deg : converts ? in_units(origin, index) : origin;
     }
     case input_number: return interpreter_->results_.input;
     case tool_block:
@@ -128,6 +130,8 @@ void SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number,
     } else {
         WorkSystem& system = offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
         const std::int32_t index = (place.index - 1) % system_step;
+        const bool length = index < 3 || index > 5;
+        value = length && interpreter.rules().macros ? interpreter.modal_.in_mm(value) : value;
         if (index == 9) {
             system.rotation_deg = value;
         } else {

@@ -35,17 +35,24 @@ ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* too
 
 // Words that --ignore names lead nowhere: the interpreter refuses them.
 FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant) {
-    const auto ignores = [&](std::int16_t first, std::int16_t last) {
+    const auto ignores = [&](std::int16_t first, std::int16_t last, char letter = 'M') {
         return std::ranges::any_of(settings.ignored, [&](const IgnoredWord& word) {
-            return word.letter == 'M' && word.tenths >= first && word.tenths <= last;
+            return word.letter == letter && word.tenths >= first && word.tenths <= last;
         });
     };
     const bool linuxcnc = settings.dialect == Dialect::linuxcnc;
     const NumberedPrograms of = linuxcnc                             ? NumberedPrograms::linuxcnc
                                 : settings.dialect == Dialect::fanuc ? NumberedPrograms::fanuc
                                                                      : NumberedPrograms::none;
-    return {ignores(970, 990) ? NumberedPrograms::none : of, settings.block_delete, linuxcnc && !ignores(700, 730),
-            &coolant, settings.axes};
+    const bool macros = settings.dialect == Dialect::fanuc && !ignores(970, 990) && !ignores(650, 650, 'G');
+    return {ignores(980, 990) ? NumberedPrograms::none : of,
+            settings.block_delete,
+            linuxcnc && !ignores(700, 730),
+            macros,
+            settings.increments,
+            settings.left_out,
+            &coolant,
+            settings.axes};
 }
 
 } // namespace splinefeed::host

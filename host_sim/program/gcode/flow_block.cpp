@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/flow_block.hpp"
 
+#include "host_sim/program/gcode/macro_word.hpp"
+
 #include <fmt/format.h>
 #include <utility>
 
@@ -15,18 +17,21 @@ FlowKind begin_of(FlowKind kind) {
     case FlowKind::endwhile: return FlowKind::while_;
     case FlowKind::endrepeat: return FlowKind::repeat;
     case FlowKind::while_: return FlowKind::do_;
+    case FlowKind::end_loop: return FlowKind::loop;
     default: return FlowKind::if_;
     }
 }
 
 bool ends(FlowKind kind) {
     return kind == FlowKind::endsub || kind == FlowKind::endif || kind == FlowKind::endwhile ||
-           kind == FlowKind::endrepeat || kind == FlowKind::while_; // of do
+           kind == FlowKind::endrepeat || kind == FlowKind::while_ || // of do
+           kind == FlowKind::end_loop;
 }
 
 // Whether it is of no use without its structure.
 bool belongs(FlowKind kind) {
-    return kind != FlowKind::call && kind != FlowKind::return_ && kind < FlowKind::program;
+    return (kind != FlowKind::call && kind != FlowKind::return_ && kind < FlowKind::program) ||
+           kind == FlowKind::loop || kind == FlowKind::end_loop;
 }
 
 std::string_view end_of(FlowKind begin) {
@@ -35,6 +40,19 @@ std::string_view end_of(FlowKind begin) {
            : begin == FlowKind::repeat ? "endrepeat"
            : begin == FlowKind::do_    ? "while [...]"
                                        : "endwhile";
+}
+
+// As it is written.
+std::string name_of(const FlowWord& word) {
+    return word.kind == FlowKind::loop       ? word.label
+           : word.kind == FlowKind::end_loop ? "END" + word.label.substr(2)
+                                             : "o" + word.label;
+}
+
+// What ends it.
+std::string end_text(const FlowWord& begin) {
+    return begin.kind == FlowKind::loop ? "END" + begin.label.substr(2)
+                                        : fmt::format("o{} {}", begin.label, end_of(begin.kind));
 }
 
 } // namespace
@@ -71,9 +89,9 @@ void FlowBlock::add_stray(std::size_t line) {
     const FlowWord& word = known(line).word;
     known(line).wrong = true;
     add_problem(line, word.label_at,
-                open_.empty() ? fmt::format("o{} has no begin", word.label)
-                              : fmt::format("o{} has no begin; what is open here is o{} of line {}", word.label,
-                                            known(open_.back()).word.label, lines_[open_.back()].number));
+                open_.empty() ? fmt::format("{} has no begin", name_of(word))
+                              : fmt::format("{} has no begin; what is open here is {} of line {}", name_of(word),
+                                            name_of(known(open_.back()).word), lines_[open_.back()].number));
 }
 
 void FlowBlock::enter(std::size_t line) {
@@ -128,7 +146,7 @@ void FlowBlock::end_or_branch(std::size_t line) {
         const std::size_t inner = open_.back();
         add_problem(
             line, word.label_at,
-            fmt::format("o{} of line {} has no end before this one", known(inner).word.label, lines_[inner].number));
+            fmt::format("{} of line {} has no end before this one", name_of(known(inner).word), lines_[inner].number));
         give_up(inner, line);
     }
     ends(word.kind) ? close(line) : branch(line);
@@ -192,6 +210,7 @@ void FlowBlock::link_word(std::size_t line) {
     case FlowKind::if_:
     case FlowKind::do_:
     case FlowKind::repeat: enter(line); break;
+    case FlowKind::loop: enter_loop(line); break;
     case FlowKind::while_:
         open_place(FlowKind::do_, word.label) < open_.size() ? end_or_branch(line) : enter(line);
         break;
@@ -200,20 +219,81 @@ void FlowBlock::link_word(std::size_t line) {
     case FlowKind::endif:
     case FlowKind::endwhile:
     case FlowKind::endrepeat:
+    case FlowKind::end_loop:
     case FlowKind::endsub: end_or_branch(line); break;
     case FlowKind::break_:
     case FlowKind::continue_: leave(line); break;
     case FlowKind::call:
     case FlowKind::program:
     case FlowKind::call_program:
-    case FlowKind::call_lines:
     case FlowKind::end_program:
     case FlowKind::save_modes:
     case FlowKind::forget_modes:
     case FlowKind::restore_modes:
     case FlowKind::lend_modes:
+    case FlowKind::call_macro:
+    case FlowKind::then:
+    case FlowKind::alarm:
+    case FlowKind::message:
     case FlowKind::return_: break;
+    case FlowKind::call_line:
+    case FlowKind::jump:
+    case FlowKind::jump_if: require_no_o_word(line); break;
     }
+}
+
+// A block of O words at the top of a program is all that is in memory.
+bool FlowBlock::require_no_o_word(std::size_t line) {
+    for (const std::size_t begin : open_) {
+        if (known(begin).word.kind != FlowKind::loop) {
+            known(line).wrong = true;
+            add_problem(line, known(line).word.label_at,
+                        fmt::format("GOTO, WHILE and M97 do not stand within O words; {} of line {} is open here",
+                                    name_of(known(begin).word), lines_[begin].number));
+            return false;
+        }
+    }
+    return true;
+}
+
+void FlowBlock::enter_loop(std::size_t line) {
+    if (!require_no_o_word(line)) {
+        return;
+    }
+    if (open_place(FlowKind::loop, known(line).word.label) < open_.size()) {
+        known(line).wrong = true;
+        add_problem(
+            line, known(line).word.label_at,
+            fmt::format("{0} stands within {0}; loops within one another have other numbers", known(line).word.label));
+        return;
+    }
+    enter(line);
+}
+
+void FlowBlock::find_labels() const {
+    std::vector<std::size_t> around;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        if (const std::optional<std::uint32_t> number = line_label(lines_[i].text)) {
+            const auto place_of = labels_.try_emplace(*number, Label{i, around.empty() ? no_line : around.back(), 0});
+            ++place_of.first->second.count;
+        }
+        const Place* const word = place(i);
+        if (word != nullptr && belongs(word->word.kind) && word->begin == i && word->end > i) {
+            around.push_back(i);
+        }
+        if (!around.empty() && place(around.back())->end == i) {
+            around.pop_back();
+        }
+    }
+    has_labels_ = true;
+}
+
+const FlowBlock::Label* FlowBlock::label(std::uint32_t number) const {
+    if (!has_labels_) {
+        find_labels();
+    }
+    const auto found = labels_.find(number);
+    return found != labels_.end() ? &found->second : nullptr;
 }
 
 std::vector<FlowBlock::Problem> FlowBlock::link() {
@@ -235,8 +315,7 @@ std::vector<FlowBlock::Problem> FlowBlock::link() {
     for (const std::size_t begin : open_) {
         const FlowWord& word = known(begin).word;
         add_problem(begin, 0,
-                    fmt::format("o{} has no end; write o{} {} behind its last line", word.label, word.label,
-                                end_of(word.kind)));
+                    fmt::format("{} has no end; write {} behind its last line", name_of(word), end_text(word)));
         give_up(begin, lines_.size() - 1);
     }
     return problems_;

@@ -5,6 +5,8 @@
 #include "host_sim/program/gcode/flow_word.hpp"
 #include "host_sim/program/source_line.hpp"
 
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,14 @@ public:
         std::size_t next = 0;  ///< of if and elseif: the next elseif, else or endif
         bool wrong = false;    ///< it belongs to nothing, or its structure has no end
     };
+
+    /// A line with a number N, which GOTO may name.
+    struct Label {
+        std::size_t line = 0;
+        std::size_t around = 0; ///< first line of the innermost structure that it is in; no_line: none
+        std::size_t count = 0;  ///< lines with this number
+    };
+    static constexpr std::size_t no_line = std::numeric_limits<std::size_t>::max();
 
     /// What is wrong with the order of the words.
     struct Problem {
@@ -49,6 +59,12 @@ public:
     [[nodiscard]] const Place* place(std::size_t at) const {
         return place_of_[at] > 0 ? &places_[place_of_[at] - 1] : nullptr;
     }
+    /// Null: no line has the number. Finds all of them when first asked. @pre link() has found nothing wrong
+    [[nodiscard]] const Label* label(std::uint32_t number) const;
+    /// Whether a jump from one line leads to the other without entering a structure.
+    [[nodiscard]] bool leads(std::size_t from, const Label& to) const {
+        return to.around == no_line || (from >= to.around && from <= places_[place_of_[to.around] - 1].end);
+    }
     /// A part of it, from a word to the end of its structure. @pre link() has found nothing wrong
     [[nodiscard]] FlowBlock part(std::size_t from, std::uint64_t number) const;
 
@@ -56,6 +72,8 @@ private:
     [[nodiscard]] Place& known(std::size_t line) { return places_[place_of_[line] - 1]; }
     void link_word(std::size_t line);
     void enter(std::size_t line);
+    void enter_loop(std::size_t line);
+    bool require_no_o_word(std::size_t line);
     /// A word that ends or divides a structure.
     void end_or_branch(std::size_t line);
     void branch(std::size_t line);
@@ -68,6 +86,7 @@ private:
     void give_up(std::size_t begin, std::size_t last_line);
     void add_problem(std::size_t line, std::size_t at, std::string text);
     void add_stray(std::size_t line);
+    void find_labels() const;
 
     std::uint64_t number_;
     std::vector<SourceLine> lines_;
@@ -75,6 +94,8 @@ private:
     std::vector<Place> places_;
     std::vector<std::size_t> open_; // first lines of the structures around a line, while it is linked
     std::vector<Problem> problems_;
+    mutable std::map<std::uint32_t, Label> labels_;
+    mutable bool has_labels_ = false;
 };
 
 } // namespace splinefeed::host

@@ -37,17 +37,16 @@ struct Code {
 };
 
 constexpr Code codes[] = {
-    {"97", FlowKind::call_lines}, {"98", FlowKind::call_program}, {"99", FlowKind::end_program},
-    {"70", FlowKind::save_modes}, {"71", FlowKind::forget_modes}, {"72", FlowKind::restore_modes},
+    {"98", FlowKind::call_program}, {"99", FlowKind::end_program},  {"97", FlowKind::call_line},
+    {"70", FlowKind::save_modes},   {"71", FlowKind::forget_modes}, {"72", FlowKind::restore_modes},
     {"73", FlowKind::lend_modes},
 };
 
 bool has_code(const FlowRules& rules, FlowKind kind) noexcept {
-    if (kind == FlowKind::call_lines) {
-        return rules.programs == NumberedPrograms::fanuc;
-    }
     const bool of_programs = kind == FlowKind::call_program || kind == FlowKind::end_program;
-    return of_programs ? rules.programs != NumberedPrograms::none : rules.saves_modes;
+    return kind == FlowKind::call_line ? rules.macros
+           : of_programs               ? rules.programs != NumberedPrograms::none
+                                       : rules.saves_modes;
 }
 
 // Behind the M.
@@ -105,7 +104,7 @@ std::optional<FlowWord> read_flow_code(std::string_view text, const FlowRules& r
     };
     while (!cursor.at_end() && cursor.peek() != ';') {
         const Part part = next_part(cursor);
-        const bool in_call = out && (out->kind == FlowKind::call_program || out->kind == FlowKind::call_lines);
+        const bool in_call = out && (out->kind == FlowKind::call_program || out->kind == FlowKind::call_line);
         TextCursor number(text);
         number.go_to(part.number);
         if (const Code* const code = part.letter == 'm' ? code_at(number, rules) : nullptr; code != nullptr && !out) {

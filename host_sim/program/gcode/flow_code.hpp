@@ -4,6 +4,7 @@
 
 #include "host_sim/program/gcode/flow_word.hpp"
 #include "host_sim/program/gcode/saved_modes.hpp"
+#include "host_sim/program/left_out_list.hpp"
 
 namespace splinefeed::host {
 
@@ -18,6 +19,9 @@ struct FlowRules {
     NumberedPrograms programs = NumberedPrograms::none;
     bool block_delete = false;             ///< lines that begin with / are left out
     bool saves_modes = false;              ///< there are M70 to M73, which stand alone in their line
+    bool macros = false;                   ///< there are the statements of macro_word
+    bool increments = false;               ///< numbers of G65 without a decimal point count 0.001 mm
+    LeftOutList* left_out = nullptr;       ///< is told an M99 that would begin the program again; null: nobody asks
     const CoolantState* coolant = nullptr; ///< where the program is; null: nobody knows, it is off
     std::vector<std::string> axes{};       ///< of the machine: x, y, z, ...
 };

@@ -60,16 +60,6 @@ std::string program_label(std::string_view number) {
     return std::string("O").append(number); // the others are in lower case
 }
 
-std::string lines_label(std::string_view number) {
-    return std::string("N").append(number);
-}
-
-std::string line_number_of(std::string_view text) {
-    TextCursor cursor(text);
-    cursor.take('/');
-    return cursor.take('n') && is_digit(cursor.peek()) ? read_label(cursor) : std::string();
-}
-
 bool has_flow_word(std::string_view text) noexcept {
     TextCursor cursor(text);
     if (cursor.take('n')) {

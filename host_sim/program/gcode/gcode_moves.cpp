@@ -6,7 +6,7 @@
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
-#include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/macro_variables.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_items.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
@@ -44,6 +44,7 @@ public:
 
     bool start(PerAxis<Position>& position) override {
         position = settings_->start;
+        variables_.follow(interpreter_);
         if (settings_->left_out != nullptr) {
             settings_->left_out->begin();
         }
@@ -128,7 +129,7 @@ public:
 
     [[nodiscard]] UnreadLines unread() override {
         UnreadLines out{line_.number, 0};
-        while (interpreter_.has_ended() && flow_.next_unread(line_)) {
+        while ((interpreter_.has_ended() || flow_.has_ended()) && flow_.next_unread(line_)) {
             TextCursor cursor(line_.text);
             const char first = cursor.peek();
             out.lines += first != '\0' && first != '(' && first != ';' && first != '%' ? 1 : 0;
@@ -365,7 +366,8 @@ private:
     ProblemList* problems_;
     std::optional<MachineTools> tools_;
     ParameterMemory parameters_;
-    Expression expression_{parameters_};
+    MacroVariables variables_{parameters_, settings_->axes};
+    Expression expression_{variables_};
     std::unique_ptr<ProgramItems> items_;
     BlockInterpreter& interpreter_; // theirs
     CoolantState coolant_;

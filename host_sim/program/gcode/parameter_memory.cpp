@@ -67,13 +67,27 @@ void ParameterMemory::forget(std::string_view name) noexcept {
     }
 }
 
-void ParameterMemory::enter(const std::vector<Decimal>& arguments) {
+void ParameterMemory::save(std::size_t numbers) {
     const auto begin = values_.begin();
-    const auto end = begin + local_numbers;
-    callers_.push_back({{begin, end}, std::move(named_)});
+    callers_.push_back({{begin, begin + static_cast<std::ptrdiff_t>(numbers)}, std::move(named_)});
     named_.clear();
-    std::fill(begin, end, Decimal{});
-    std::copy_n(arguments.begin(), std::min(arguments.size(), local_numbers), begin);
+}
+
+void ParameterMemory::enter(const std::vector<Decimal>& arguments) {
+    save(local_numbers);
+    std::fill_n(values_.begin(), local_numbers, Decimal{});
+    std::copy_n(arguments.begin(), std::min(arguments.size(), local_numbers), values_.begin());
+}
+
+void ParameterMemory::enter_macro(const MacroLocals& arguments) {
+    save(arguments.size());
+    std::copy(arguments.begin(), arguments.end(), values_.begin());
+}
+
+MacroLocals ParameterMemory::locals() const noexcept {
+    MacroLocals out{};
+    std::copy_n(values_.begin(), out.size(), out.begin());
+    return out;
 }
 
 void ParameterMemory::leave() {

@@ -4,11 +4,15 @@
 
 #include "splinefeed/s0_program/text/numbered_parameters.hpp"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace splinefeed::host {
+
+/// #1 to #33 of a macro; one without a value is vacant.
+using MacroLocals = std::array<Decimal, 33>;
 
 class ParameterMemory final : public ParameterTable {
 public:
@@ -30,13 +34,18 @@ public:
 
     /// A call begins: #1 to #30 are its arguments, and names without a leading _ are its own.
     void enter(const std::vector<Decimal>& arguments);
+    /// The same of a macro: #1 to #33 are its own, and those that are no arguments are vacant.
+    void enter_macro(const MacroLocals& arguments);
     /// It ends: they are again what they were. @pre enter() was called
     void leave();
+    [[nodiscard]] MacroLocals locals() const noexcept;
 
 private:
     static constexpr std::size_t local_numbers = 30;
 
     using Names = std::map<std::string, Decimal, std::less<>>;
+    void save(std::size_t numbers);
+
     struct Saved {
         std::vector<Decimal> numbered;
         Names named;

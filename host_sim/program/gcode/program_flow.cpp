@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 
+#include "splinefeed/s0_program/text/macro_operation.hpp"
 #include "splinefeed/s0_program/text/program_errors.hpp"
 
 #include <algorithm>
@@ -21,10 +22,18 @@ bool ProgramFlow::report(const InputError& error, std::uint64_t line) {
 }
 
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
+    std::size_t wrong = 0;
+    if (has_statement(line.text)) {
+        std::string_view right;
+        auto statement = read_macro_word(line.text, wrong, right);
+        if (!statement) {
+            fail(line, wrong, right);
+        }
+        return std::move(*statement);
+    }
     if (auto call = read_flow_code(line.text, rules_)) {
         return std::move(*call);
     }
-    std::size_t wrong = 0;
     const auto word = read_flow_word(line.text, wrong);
     if (!word || (word->kind == FlowKind::program && rules_.programs == NumberedPrograms::none)) {
         fail(line, wrong,
@@ -59,7 +68,7 @@ Decimal ProgramFlow::value(std::string_view text, std::size_t& at, const SourceL
     if (!status.ok()) {
         fail(line, at, describe(status.error()));
     }
-    return out;
+    return value_or_zero(out);
 }
 
 std::string ProgramFlow::label_of(const FlowWord& word, const SourceLine& line) {
@@ -162,8 +171,7 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     case FlowKind::endif:
     case FlowKind::program: // another one goes on in it
     case FlowKind::do_: break;
-    case FlowKind::call_program:
-    case FlowKind::call_lines: execute_program_call(place.word, line); break;
+    case FlowKind::call_program: execute_program_call(place.word, line); break;
     case FlowKind::end_program: leave_program(place.word, line); break;
     case FlowKind::save_modes:
     case FlowKind::forget_modes:
@@ -181,6 +189,15 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     case FlowKind::endwhile: go_to(place.begin); break;
     case FlowKind::repeat: execute_repeat(place, line); break;
     case FlowKind::endrepeat: end_repeat(place); break;
+    case FlowKind::call_line: execute_line_call(place.word, line); break;
+    case FlowKind::call_macro: execute_macro_call(place.word, line); break;
+    case FlowKind::jump: jump(place.word, line, place.word.rest); break;
+    case FlowKind::jump_if: execute_jump_if(place.word, line); break;
+    case FlowKind::then: execute_then(place.word, line); break;
+    case FlowKind::alarm:
+    case FlowKind::message: execute_stop(place.word, line); break;
+    case FlowKind::loop: execute_loop(place, line); break;
+    case FlowKind::end_loop: go_to(place.begin); break;
     case FlowKind::break_: go_to(code.place(place.begin)->end + 1); break;
     case FlowKind::continue_: go_to(code.place(place.begin)->end); break;
     }
@@ -188,7 +205,7 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
 
 void ProgramFlow::leave_frame() {
     const Frame& frame = frames_.back();
-    if (frame.call == Call::sub) {
+    if (frame.call == Call::sub || frame.call == Call::macro) {
         parameters_->leave();
     }
     if (frame.lends && frame.modes) {
@@ -208,6 +225,7 @@ void ProgramFlow::abandon() {
 // A word was wrong: what is in its structure runs once.
 void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
     switch (place.word.kind) {
+    case FlowKind::loop:
     case FlowKind::while_:
         if (!is_new && place.end > place.begin && frames_.back().code->place(place.begin)->word.kind != FlowKind::do_) {
             go_to(place.end + 1);
@@ -216,7 +234,8 @@ void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
     case FlowKind::repeat: frames_.back().repeats.push_back({place.begin, 1}); break;
     case FlowKind::call: // calls that go on for ever
     case FlowKind::call_program:
-    case FlowKind::call_lines:
+    case FlowKind::call_line:
+    case FlowKind::call_macro:
         if (frames_.size() >= deepest) {
             abandon();
         }
@@ -230,6 +249,9 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
         out = std::move(restoring_.front());
         restoring_.pop_front();
         return Step::line;
+    }
+    if (stops_) {
+        return Step::end;
     }
     if (waits_) {
         return read_ahead(out);
@@ -281,8 +303,9 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
 }
 
 ProgramFlow::Step ProgramFlow::end_of_block() {
-    if (frames_.back().call == Call::program) {
-        const SourceLine& first = frames_.back().code->line(0);
+    const Frame& frame = frames_.back();
+    if (frame.call == Call::program || frame.call == Call::macro) {
+        const SourceLine& first = frame.code->line(frame.again == 1 ? 0 : frame.again);
         report(
             InputError(file_, first.number, std::uint64_t{1}, "the subprogram that begins here has no M99 at its end"),
             first.number);
@@ -293,7 +316,8 @@ ProgramFlow::Step ProgramFlow::end_of_block() {
 
 void ProgramFlow::count_word(const SourceLine& line) {
     if (++words_ > most_words) {
-        fail(line, 0, "the program has executed {} O words; does it ever end?", most_words);
+        fail(line, 0, "the program has executed {} {}; does it ever end?", most_words,
+             rules_.macros ? "jumps, loops and calls" : "O words");
     }
 }
 

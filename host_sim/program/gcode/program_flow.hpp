@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/flow_block.hpp"
 #include "host_sim/program/gcode/flow_code.hpp"
+#include "host_sim/program/gcode/macro_word.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
@@ -30,6 +31,8 @@ public:
     static constexpr std::uint64_t most_repeated = 10'000;  ///< times that a block may come to problems that are known
     static constexpr std::size_t deepest = 30;              ///< calls within calls
     static constexpr std::int32_t most_arguments = 30;
+    static constexpr std::size_t most_lines_back = 16'384;   ///< of a program, kept for jumps back until the first jump
+    static constexpr std::size_t most_text_back = 1U << 20U; ///< characters of them
 
     enum class Step : std::uint8_t {
         line,    ///< execute it
@@ -49,10 +52,12 @@ public:
     Step next(SourceLine& out);
     /// Whether next() needs no more input.
     [[nodiscard]] bool in_memory() const noexcept {
-        return (runs_block() || !again_.empty() || !restoring_.empty() || ended_) && !waits_;
+        return (runs_block() || !again_.empty() || !restoring_.empty() || ended_ || stops_) && !waits_;
     }
     /// Behind the end of the program: the next line that was not executed as part of a subprogram. False: none.
     bool next_unread(SourceLine& out);
+    /// Whether the program has ended itself by M99 or an alarm: next() gives no more.
+    [[nodiscard]] bool has_ended() const noexcept { return stops_; }
 
 private:
     struct Repeat {
@@ -62,7 +67,8 @@ private:
     enum class Call : std::uint8_t {
         none,
         sub,     ///< it has parameters of its own
-        program, ///< by M98
+        program, ///< by M98 or M97
+        macro,   ///< by G65: it has parameters of its own
     };
     /// A block that is executed from memory.
     struct Frame {
@@ -71,9 +77,10 @@ private:
         Call call = Call::none;
         std::vector<Repeat> repeats{}; // those around `at`
         std::int64_t more = 0;         // times that the program is to run again
-        std::size_t first = 1;         // its first line: behind its O word, or that of M97
         std::optional<SavedModes> modes{};
-        bool lends = false; // the modes are put back at its end
+        bool lends = false;      // the modes are put back at its end
+        std::size_t again = 1;   // its first line when it runs again
+        MacroLocals arguments{}; // of a macro
     };
     struct Sub {
         std::shared_ptr<const FlowBlock> code;
@@ -87,7 +94,7 @@ private:
         std::optional<FlowWord> word;
     };
 
-    /// A call that waits for the rest of the input.
+    /// A call or a jump that waits for the rest of the input.
     struct Waiting {
         FlowWord word;
         SourceLine line;
@@ -101,7 +108,10 @@ private:
     [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
     [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return has_flow_word(text) || read_flow_code(text, rules_).has_value();
+        return has_flow_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
+    }
+    [[nodiscard]] bool has_statement(std::string_view text) const noexcept {
+        return rules_.macros && has_macro_word(text) && !(rules_.block_delete && TextCursor(text).peek() == '/');
     }
     Step take_word(SourceLine& line, const std::optional<FlowWord>& known);
     Step collect(const SourceLine& line, const std::optional<FlowWord>& known);
@@ -127,10 +137,40 @@ private:
     void execute_modes(const FlowWord& word, const SourceLine& line);
     [[nodiscard]] SavedModes modes() const;
     void put_back(const SavedModes& saved, std::uint64_t line);
+    // Macros: program_flow_macros.cpp.
+    void begin_program();
+    [[nodiscard]] bool keeps_program(const FlowWord& word, const SourceLine& line);
+    void load_program();
+    void execute_loop(const FlowBlock::Place& place, const SourceLine& line);
+    void jump(const FlowWord& word, const SourceLine& line, std::size_t at);
+    void jump_to(std::uint32_t number, const SourceLine& line, std::size_t at);
+    [[nodiscard]] const FlowBlock::Label& find_label(std::uint32_t number, const SourceLine& line,
+                                                     std::size_t at) const;
+    void execute_jump_if(const FlowWord& word, const SourceLine& line);
+    void execute_then(const FlowWord& word, const SourceLine& line);
+    void execute_stop(const FlowWord& word, const SourceLine& line);
+    void execute_line_call(const FlowWord& word, const SourceLine& line);
+    void execute_macro_call(const FlowWord& word, const SourceLine& line);
+    void end_main(const FlowWord& word, const SourceLine& line);
+    void return_to(const FlowWord& word, const SourceLine& line);
+    void require_same_locals(const FlowWord& word, const SourceLine& line) const;
+    struct MacroCall {
+        std::string number; // of the program
+        std::int64_t times = 1;
+        MacroLocals locals{};
+    };
+    [[nodiscard]] MacroCall macro_call(const FlowWord& word, const SourceLine& line);
+    void read_argument(TextCursor& text, const SourceLine& line, MacroCall& out, std::string& letters);
+    [[nodiscard]] std::uint32_t whole(std::size_t& at, const SourceLine& line);
+    [[nodiscard]] std::size_t program_end(std::size_t begin) const;
+    [[nodiscard]] std::shared_ptr<FlowBlock> rest_of(const FlowBlock& block, std::size_t& at);
+    void add_to(FlowBlock& block, const SourceLine& line);
+    void note_passed(const SourceLine& line);
     // Subprograms: program_flow_calls.cpp.
+    [[nodiscard]] std::shared_ptr<const FlowBlock> find_program(const std::string& number, const FlowWord& word,
+                                                                const SourceLine& line);
     void execute_program_call(const FlowWord& word, const SourceLine& line);
     void leave_program(const FlowWord& word, const SourceLine& line);
-    [[nodiscard]] std::size_t lines_end(std::size_t begin) const;
     void leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text);
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_sub(const std::string& label);
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_ahead(const std::string& label);
@@ -138,7 +178,7 @@ private:
     [[nodiscard]] std::size_t end_ahead(std::size_t begin, const FlowWord& first) const;
     bool wait_for_input(const FlowWord& word, const SourceLine& line);
     Step read_ahead(SourceLine& out);
-    [[nodiscard]] Step give_others(const FlowWord& word, SourceLine& out) const;
+    [[nodiscard]] Step give_others(const FlowWord& word, SourceLine& out);
     [[nodiscard]] bool report_problems(const FlowBlock& block, const std::vector<FlowBlock::Problem>& problems);
     void define(const FlowBlock::Place& place, const SourceLine& line);
     void keep(const std::string& label, const Sub& sub);
@@ -175,6 +215,13 @@ private:
     std::set<std::string> lost_;       // labels whose structure was wrong: what else names them is not told
     bool begun_ = false;               // there was a block: a number of the program would have come before it
     bool collects_ = false;            // a block is read to its end
+    bool stops_ = false;               // the program has ended itself
+    bool passed_program_ = false;      // another numbered program begins behind the first one
+    std::deque<SourceLine> passed_;    // lines of the program before ahead_, for jumps back
+    std::size_t passed_text_ = 0;      // their characters
+    bool passed_lost_ = false;         // they were too many
+    std::size_t ahead_program_ = 0;    // where in ahead_ the program begins or goes on
+    std::string given_;                // what is to be executed in the place of a line
     std::shared_ptr<FlowBlock> block_;
     std::string block_label_;
     FlowKind block_kind_ = FlowKind::sub;

@@ -46,7 +46,9 @@ void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
 void ProgramFlow::leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text) {
     const auto called =
         std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& frame) { return frame.call != Call::none; });
-    if (called == frames_.rend() || called->call != call) {
+    const bool fits =
+        called != frames_.rend() && (called->call == call || (call == Call::program && called->call == Call::macro));
+    if (!fits) {
         fail(line, word.label_at, text);
     }
     while (frames_.back().call == Call::none) {
@@ -54,13 +56,10 @@ void ProgramFlow::leave_to(Call call, const FlowWord& word, const SourceLine& li
     }
 }
 
-// M98: the number of the program, and how often. #1 to #30 stay those of the caller. M97: of a line.
+// M98: the number of the program, and how often. #1 to #30 stay those of the caller.
 void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& line) {
-    const bool of_lines = word.kind == FlowKind::call_lines;
     if (!word.has_number) {
-        fail(line, word.label_at,
-             of_lines ? "M97 needs P, the N number of the first line: M97 P1000, and L for how often"
-                      : "M98 needs P, the number of the subprogram: M98 P1000, and L for how often");
+        fail(line, word.label_at, "M98 needs P, the number of the subprogram: M98 P1000, and L for how often");
     }
     if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
         fail(line, word.label_at, "M98 stands alone in its line, with P and L");
@@ -68,24 +67,29 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
     std::string number = label_of(word, line);
     std::size_t at = word.rest;
     std::int64_t times = at > 0 ? value(line.text, at, line).raw / Decimal::one : 1;
-    const auto label = of_lines ? lines_label : program_label;
-    auto code = find_sub(label(number));
-    if (code == nullptr && !lost_.contains(label(number)) && wait_for_input(word, line)) {
+    auto code = find_sub(program_label(number));
+    if (code == nullptr && !lost_.contains(program_label(number)) && wait_for_input(word, line)) {
         return;
     }
     constexpr std::size_t digits = 4; // of a number; those before say how often
-    if (code == nullptr && !of_lines && rules_.programs == NumberedPrograms::fanuc && at == 0 &&
-        number.size() > digits) {
+    if (code == nullptr && rules_.programs == NumberedPrograms::fanuc && at == 0 && number.size() > digits) {
         times = std::stoll(number.substr(0, number.size() - digits));
         number.erase(0, number.size() - digits);
         number.erase(0, std::min(number.find_first_not_of('0'), digits - 1));
-        code = find_sub(program_label(number));
     }
-    if (code == nullptr && lost_.contains(label(number))) {
-        return;
+    code = find_program(number, word, line);
+    if (code != nullptr && times > 0) {
+        frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
     }
-    if (code == nullptr && of_lines) {
-        fail(line, word.label_at, "there is no line N{} behind this one", number);
+}
+
+// Null: it waits for the input, or what is wrong with it has been told.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_program(const std::string& number, const FlowWord& word,
+                                                           const SourceLine& line) {
+    const std::string label = program_label(number);
+    auto code = find_sub(label);
+    if (code == nullptr && (lost_.contains(label) || wait_for_input(word, line))) {
+        return nullptr;
     }
     if (code == nullptr) {
         fail(line, word.label_at, "there is no subprogram O{} behind this line; those of other files are not read",
@@ -94,10 +98,7 @@ void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& l
     if (frames_.size() >= deepest) {
         fail(line, word.label_at, "calls are nested more than {} deep", deepest);
     }
-    if (times > 0) {
-        const std::size_t first = of_lines ? 0 : 1;
-        frames_.push_back({.code = code, .at = first, .call = Call::program, .more = times - 1, .first = first});
-    }
+    return code;
 }
 
 // M99.
@@ -105,11 +106,16 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
         fail(line, word.label_at, "M99 stands alone in its line");
     }
-    if (word.has_number) {
+    const bool is_main =
+        std::ranges::all_of(frames_, [](const Frame& frame) { return frame.call == Call::none; }) && !passed_program_;
+    if (is_main && rules_.macros) {
+        end_main(word, line);
+        return;
+    }
+    if (word.has_number && !rules_.macros) {
         fail(line, word.label_at, "M99 P, which goes on at another line of the caller, is not supported");
     }
-    const bool called = std::ranges::any_of(frames_, [](const Frame& frame) { return frame.call != Call::none; });
-    if (!called) { // controls begin the program again
+    if (is_main) { // controls begin the program again
         if (wait_for_input(word, line)) {
             return;
         }
@@ -124,13 +130,18 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     }
     leave_to(Call::program, word, line,
              "M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it");
+    if (word.has_number) {
+        return_to(word, line);
+        return;
+    }
     Frame& frame = frames_.back();
     if (frame.more == 0) {
         leave_frame();
         return;
     }
+    require_same_locals(word, line);
     --frame.more;
-    frame.at = frame.first;
+    frame.at = frame.again;
     frame.repeats.clear();
 }
 
@@ -145,13 +156,10 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
     for (std::size_t i = ahead_at_; i < ahead_.size(); ++i) {
         std::size_t wrong = 0;
         const auto word = has_flow_word(ahead_[i].text) ? read_flow_word(ahead_[i].text, wrong) : std::nullopt;
-        const bool is_line = label.front() == 'N' && label == lines_label(line_number_of(ahead_[i].text));
-        const bool is_program =
-            word && word->label == label && (word->kind == FlowKind::sub || word->kind == FlowKind::program);
-        if (!is_line && !is_program) {
+        if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
             continue;
         }
-        const std::size_t end = is_line ? lines_end(i) : end_ahead(i, *word);
+        const std::size_t end = end_ahead(i, *word);
         if (kept_ + (end - i) >= most_lines) {
             fail(ahead_[i], 0, "subprograms and loops have more than {} lines", most_lines);
         }
@@ -171,12 +179,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
 std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std::size_t end) {
     auto block = std::make_shared<FlowBlock>(++blocks_);
     for (std::size_t i = begin; i < end; ++i) {
-        const SourceLine& line = ahead_[i];
-        try {
-            has_word(line.text) ? block->add(line, word_of(line)) : block->add(line);
-        } catch (const WordError& error) {
-            report(error, line.number);
-        }
+        add_to(*block, ahead_[i]);
     }
     if (report_problems(*block, block->link())) {
         return block;
@@ -184,23 +187,8 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std
     if (block->place(0)->wrong) {
         return nullptr;
     }
-    auto rest = std::make_shared<FlowBlock>(++blocks_);
-    for (const Again& again : without_wrong(*block)) {
-        again.word ? rest->add(again.line, *again.word) : rest->add(again.line);
-    }
-    static_cast<void>(rest->link());
-    return rest;
-}
-
-// Behind the M99 of lines that M97 calls.
-std::size_t ProgramFlow::lines_end(std::size_t begin) const {
-    for (std::size_t i = begin; i < ahead_.size(); ++i) {
-        const auto code = read_flow_code(ahead_[i].text, rules_);
-        if (code && code->kind == FlowKind::end_program) {
-            return i + 1;
-        }
-    }
-    return ahead_.size();
+    std::size_t first = 0;
+    return rest_of(*block, first);
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
@@ -244,9 +232,7 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
     const Waiting call = *std::exchange(waits_, std::nullopt);
     out = call.line;
     try {
-        call.word.kind == FlowKind::call          ? execute_call(call.word, call.line)
-        : call.word.kind == FlowKind::end_program ? leave_program(call.word, call.line)
-                                                  : execute_program_call(call.word, call.line);
+        begin(call.word, call.line);
     } catch (const WordError& error) {
         report(error, out.number);
     }
@@ -254,7 +240,11 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
 }
 
 // The words beside M98 and M99, which are executed before what these lead to.
-ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out) const {
+ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out) {
+    if (!given_.empty()) {
+        out.text = std::exchange(given_, {});
+        return Step::line;
+    }
     if (word.others.empty() || rules_.programs != NumberedPrograms::fanuc || waits_) {
         return Step::nothing;
     }

@@ -23,10 +23,22 @@ void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
         block_depth_ = 1;
         break;
     case FlowKind::call: execute_call(word, line); break;
-    case FlowKind::call_program:
-    case FlowKind::call_lines: execute_program_call(word, line); break;
+    case FlowKind::call_program: execute_program_call(word, line); break;
     case FlowKind::end_program: leave_program(word, line); break;
-    case FlowKind::program: break; // its name
+    case FlowKind::program: begin_program(); break; // its name
+    case FlowKind::call_line: execute_line_call(word, line); break;
+    case FlowKind::call_macro: execute_macro_call(word, line); break;
+    case FlowKind::jump: jump(word, line, word.rest); break;
+    case FlowKind::jump_if: execute_jump_if(word, line); break;
+    case FlowKind::then: execute_then(word, line); break;
+    case FlowKind::alarm:
+    case FlowKind::message: execute_stop(word, line); break;
+    case FlowKind::loop: // it runs from memory
+    case FlowKind::end_loop:
+        if (keeps_program(word, line)) {
+            --frames_.back().at;
+        }
+        break;
     case FlowKind::save_modes:
     case FlowKind::forget_modes:
     case FlowKind::restore_modes:
@@ -122,7 +134,11 @@ bool ProgramFlow::next_line(SourceLine& out, std::optional<FlowWord>& word) {
         return is_there;
     }
     if (again_.empty()) {
-        return lines_->next(out);
+        const bool is_there = lines_->next(out);
+        if (is_there && rules_.macros) {
+            note_passed(out);
+        }
+        return is_there;
     }
     out = std::move(again_.front().line);
     word = std::move(again_.front().word);

@@ -142,6 +142,7 @@ struct CodeRows {
         Row{331, 331, motion, ProgramError::thread_unsupported, in_fanuc},
         Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
+        Row{650, 650, stop, ProgramError::none, in_fanuc, order}, // a call, as M98 is
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
         Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},

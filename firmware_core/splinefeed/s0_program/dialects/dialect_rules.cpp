@@ -68,6 +68,7 @@ struct DialectTable {
     static constexpr DialectRules fanuc{
         .mills_only = true,
         .uvw_steps = true,
+        .macros = true,
         .lead_is_feed = true,
         .motion_beside_offsets = true,
         .feed_of_all_axes = true,

@@ -29,6 +29,7 @@ struct DialectRules {
     bool polar_words = false;   ///< @ and ^
     bool mills_only = false;    ///< words of a lathe's program refuse it
     bool uvw_steps = false;     ///< U V W are steps along X Y Z, where the machine has no such axes
+    bool macros = false;        ///< expressions are those of Fanuc's custom macro B: a parameter may be vacant
     // Words.
     bool units_before_feed = false;     ///< G20 and G21 act on F of their own block
     bool lead_is_feed = false;          ///< F of G33 is the way of a turn

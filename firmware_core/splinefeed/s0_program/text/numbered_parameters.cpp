@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/text/numbered_parameters.hpp"
 
-#include <limits>
-
 namespace splinefeed {
-
-namespace {
-
-constexpr Decimal unset{std::numeric_limits<std::int64_t>::min()}; // no value of a program
-
-} // namespace
 
 NumberedParameters::NumberedParameters(std::span<Decimal> values) noexcept : values_(values) {
     for (Decimal& value : values) {
-        value = unset;
+        value = vacant;
     }
 }
 
 bool NumberedParameters::read(std::int32_t number, Decimal& out) const noexcept {
-    if (!holds(number) || at(number) == unset) {
+    if (!holds(number) || at(number) == vacant) {
         return false;
     }
     out = at(number);
@@ -34,7 +26,7 @@ bool NumberedParameters::write(std::int32_t number, Decimal value) noexcept {
 }
 
 void NumberedParameters::forget(std::int32_t number) noexcept {
-    static_cast<void>(write(number, unset));
+    static_cast<void>(write(number, vacant));
 }
 
 bool NumberedParameters::read(std::string_view /*name*/, Decimal& /*out*/) const noexcept {

@@ -67,6 +67,8 @@ enum class ProgramError : std::uint8_t {
     parameter_unset,
     parameter_read_only,
     parameter_storage_full,
+    parameter_refused,
+    logic_ambiguous,
     too_many_assignments,
     assignment_invalid,
     axis_missing,

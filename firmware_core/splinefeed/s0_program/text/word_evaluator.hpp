@@ -15,8 +15,13 @@ class BlockInterpreter;
 class WordEvaluator {
 public:
     /// A value that begins with #, [ or the name of a function. After an error the cursor is at the character that is
-    /// wrong.
-    virtual ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept = 0;
+    /// wrong. In dialects with macros it may be `vacant`.
+    /// @param letter  of its word, in lower case; 0: it is of none
+    virtual ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out,
+                                char letter) noexcept = 0;
+    ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+        return value(text, control, out, '\0');
+    }
     /// "#1 = value", from the #. It is kept until commit() and finish(): values in a block are those before the block.
     virtual ProgramStatus assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
     /// Whether finish() may have something to do, and before it commit().

@@ -222,7 +222,7 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         }
         return {};
     }
-    if (const ProgramStatus status = read_value(text, control, value); !status.ok()) {
+    if (const ProgramStatus status = read_value(text, control, letter, value); !status.ok()) {
         if (first != '#' && first != '[' && !is_letter(first)) {
             text = word; // a plain number: the word is wrong; else the place within the expression is
         }
@@ -231,13 +231,13 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         }
         return status;
     }
+    if (value == vacant || (letter == 'n' && out.has(letter))) {
+        return {}; // it is left out; the first N counts
+    }
     const std::string_view as_it_stands = text.part(word.at(), text.at());
     if (!rules_->extruder && (Block::letter_bit(letter) & coordinate_bits) != 0 && is_exponent(text)) {
         text = word;
         return ProgramError::number_has_exponent;
-    }
-    if (letter == 'n' && out.has(letter)) {
-        return {}; // the first one counts
     }
     if (letter == 'g' || letter == 'm') {
         bool left_out = false;
@@ -282,7 +282,8 @@ void BlockReader::note(std::string_view word) const noexcept {
     }
 }
 
-ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, char letter,
+                                      Decimal& out) noexcept {
     const char c = text.peek();
     const bool sign = c == '-' || c == '+';
     const char first = sign ? text.peek_second() : c;
@@ -292,16 +293,15 @@ ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& 
     if (evaluator_ == nullptr) {
         return is_letter(first) ? ProgramError::number_invalid : ProgramError::expression_unsupported;
     }
-    if (sign) {
-        text.step();
-    }
+    text.go_to(text.at() + (sign ? 1U : 0U));
     const TextCursor start = text;
-    ProgramStatus status = evaluator_->value(text, control, out);
-    if (status.ok() && (out.raw > largest_number * Decimal::one || out.raw < -largest_number * Decimal::one)) {
+    const ProgramStatus status = evaluator_->value(text, control, out, letter);
+    constexpr std::int64_t most = largest_number * Decimal::one;
+    if (status.ok() && out != vacant && (out.raw > most || out.raw < -most)) {
         text = start;
-        status = ProgramError::number_out_of_range;
+        return ProgramError::number_out_of_range;
     }
-    out = c == '-' ? -out : out;
+    out = c == '-' && out != vacant ? -out : out;
     return status;
 }
 

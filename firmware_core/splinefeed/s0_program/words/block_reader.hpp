@@ -38,7 +38,7 @@ private:
     [[nodiscard]] bool is_bare(const TextCursor& text) const noexcept;
     void leave_axes_out(Block& out) const noexcept;
     ProgramStatus read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
-    ProgramStatus read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
+    ProgramStatus read_value(TextCursor& text, const BlockInterpreter& control, char letter, Decimal& out) noexcept;
     ProgramStatus add_code(char letter, Decimal value, std::size_t column, Block& out, bool& left_out) noexcept;
     void note(std::string_view word) const noexcept;
     [[nodiscard]] std::uint32_t axes() const noexcept; // bits of the machine's letters

@@ -212,7 +212,7 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         }
         return {};
     }
-    if (block.code(CodeGroup::stop) >= 97 || block.code(CodeGroup::spindle) >= 70) {
+    if (block.code(CodeGroup::stop) >= 97 || block.code(CodeGroup::spindle) >= 70) { // and G65
         return block.at(ProgramError::o_word, block.code(CodeGroup::stop) >= 97 ? CodeGroup::stop : CodeGroup::spindle);
     }
     if (modal.motion == ModalState::lost_motion && !block.has(CodeGroup::motion) && !block.has(CodeGroup::non_modal)) {
