@@ -70,6 +70,7 @@ constexpr Sign word_signs[] = {
     {"g154", Dialect::fanuc, 5},   {"g65", Dialect::fanuc, 5},      {"m97", Dialect::fanuc, 5},
     {"g187", Dialect::fanuc, 5},   {"m98", Dialect::fanuc, 3},      {"m99", Dialect::fanuc, 3},
     {"m73", Dialect::marlin, 5},   {"m486", Dialect::marlin, 5},    {"m92", Dialect::marlin, 5},
+    {"m17", Dialect::marlin, 5},   {"m18", Dialect::marlin, 5},     {"m300", Dialect::marlin, 5},
     {"m64", Dialect::linuxcnc, 3}, {"m65", Dialect::linuxcnc, 3},   {"m67", Dialect::linuxcnc, 5},
     {"m68", Dialect::linuxcnc, 5}, {"g33.1", Dialect::linuxcnc, 5},
 };
@@ -175,7 +176,7 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
             count(sign.dialect, sign.points, code, line);
         }
     }
-    if (is_bare(text)) {
+    if (is_bare(text) && evidence_[static_cast<std::size_t>(Dialect::marlin)].points == 0) { // the next says no more
         count(Dialect::marlin, 5, code, line);
     }
     if (has_lathe_tool(text)) {
@@ -219,7 +220,7 @@ std::string DialectGuess::differences(Dialect taken) const {
     std::vector<Dialect> others;
     for (std::size_t i = 0; i < dialects; ++i) {
         const auto other = static_cast<Dialect>(i);
-        if (other != taken && (evidence_[i].points > 0 || (best.points < enough && !rules_of(other).extruder))) {
+        if (other != taken && (evidence_[i].points > 0 || (best.points < 2 * enough && !rules_of(other).extruder))) {
             others.push_back(other);
         }
     }

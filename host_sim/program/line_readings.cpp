@@ -59,26 +59,24 @@ constexpr Kind all_kinds[] = {
     {[](std::string_view plain) { return plain.find("g4p") != plain.npos || plain.find("g04p") != plain.npos; },
      dwells},
     {[](std::string_view plain) { return plain.find("g28") != plain.npos && plain.find("g28.") == plain.npos; }, homes},
-    {[](std::string_view plain) {
-         return has_letter_of(plain, "abc") && has_letter_of(plain, "xyz") && has_letter_of(plain, "f");
-     },
-     counts_feed},
+    {[](std::string_view plain) { return has_letter_of(plain, "abc") && has_letter_of(plain, "xyz"); }, counts_feed},
     {has_lathe_tool, selects},
 };
 
 } // namespace
 
 bool has_lathe_tool(std::string_view plain) noexcept {
-    const std::size_t at = plain.find('t');
+    const std::size_t at = plain.find_first_of("mt"); // T of M204 is a printer's
     const std::size_t end = at == plain.npos ? at : plain.find_first_not_of("0123456789", at + 1);
-    return at != plain.npos && std::min(end, plain.size()) - at == 5;
+    return at != plain.npos && plain[at] == 't' && std::min(end, plain.size()) - at == 5;
 }
 
 void LineReadings::add(std::string_view code, std::string_view plain, std::uint64_t number) {
     static_assert(std::size(all_kinds) == kinds);
+    has_feed_ = has_feed_ || has_letter_of(plain, "f");
     inverse_time_ = (inverse_time_ || plain.find("g93") != plain.npos) && plain.find("g94") == plain.npos;
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-        const bool read_alike = inverse_time_ && all_kinds[kind].reading == counts_feed;
+        const bool read_alike = (!has_feed_ || inverse_time_) && all_kinds[kind].reading == counts_feed;
         if (lines_[kind].number == 0 && !read_alike && all_kinds[kind].is(plain)) {
             lines_[kind] = {number, std::string(code.substr(0, code.find_last_not_of(" \t\r") + 1))};
         }

@@ -35,6 +35,7 @@ private:
     };
 
     std::array<Line, kinds> lines_{};
+    bool has_feed_ = false;
     bool inverse_time_ = false; // F is none along the path
 };
 

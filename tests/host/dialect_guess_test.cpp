@@ -73,7 +73,12 @@ TEST_CASE("Where little says whose a program is, lines that others read otherwis
     CHECK(told("%\nO1\no<a> sub\nG04 P2").find("waits 2 s, in fanuc it waits 0.002 s") != std::string::npos);
     CHECK(told("(Easel)\nM82\nG28 X0") == "'G28 X0' on line 3 goes to a stored place, in marlin it is homing");
     CHECK(told("G1 X1 A5 F60").find("in grbl it has F along all of its axes, in fanuc") != std::string::npos);
+    CHECK(told("G1 F60\nX1 A5").find("'X1 A5' on line 2 has F along X, Y and Z alone") == 0);
     CHECK(told("G93\nG1 X1 A5 F60").empty());
+    CHECK(told("G04 P3\nG61\nG28 X\nG28 Y\nG28 Z") ==
+          "'G04 P3' on line 1 waits 0.003 s, in linuxcnc it waits 3 s, in grbl it waits "
+          "3 s; 'G28 X' on line 3 is homing, in linuxcnc it goes to a stored place, in "
+          "grbl it goes to a stored place, in fanuc it goes to a stored place");
     CHECK(told("G21 G90\nG1 X5 F60\nG28 X0\nM2").empty());
     CHECK(told("(grbl)\nG1 X1 A5 F60\nG4 P500").empty()); // it is named
 }

@@ -23,7 +23,7 @@ TEST_CASE("The first line of each kind is told as each dialect reads it") {
 TEST_CASE("A lathe's tool has four figures, and no others") {
     CHECK(has_lathe_tool("t0101"));
     CHECK(has_lathe_tool("n10t1212m8"));
-    for (const char* const line : {"t1", "t01m6", "t010", "t01011", "g0x1", ""}) {
+    for (const char* const line : {"t1", "t01m6", "t010", "t01011", "g0x1", "m204p2000t2500", ""}) {
         CHECK(!has_lathe_tool(line));
     }
 }

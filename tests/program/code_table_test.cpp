@@ -66,6 +66,7 @@ TEST_CASE("what changes the path, its place or the order of blocks is not left o
         {Dialect::fanuc, {'G', 120}, "G12 I5 F60", ProgramError::pocket_unsupported},
         {Dialect::grbl, {'G', 520}, "G52 X1", ProgramError::not_in_dialect},
         {Dialect::marlin, {'M', 8080}, "M808 L3", ProgramError::printer_flow_unsupported},
+        {Dialect::marlin, {'M', 6220}, "M622 J1", ProgramError::printer_flow_unsupported},
         {Dialect::marlin, {'M', 8100}, "M810 G1 X5", ProgramError::printer_flow_unsupported},
         {Dialect::marlin, {'M', 920}, "M92 X160", ProgramError::printer_move_unsupported},
         {Dialect::marlin, {'M', 2060}, "M206 X5", ProgramError::printer_move_unsupported},

@@ -163,6 +163,7 @@ struct CodeRows {
         Row{32, 32, stop, ProgramError::printer_flow_unsupported, in_printers},
         Row{112, 112, stop, ProgramError::printer_flow_unsupported, in_printers},
         Row{524, 524, stop, ProgramError::printer_flow_unsupported, in_printers},
+        Row{622, 623, stop, ProgramError::printer_flow_unsupported, in_printers}, // Bambu's conditions
         Row{808, 808, stop, ProgramError::printer_flow_unsupported, in_printers},
         Row{810, 819, stop, ProgramError::printer_flow_unsupported, in_printers},
         // They shift it, or change what a step or a coordinate is.
