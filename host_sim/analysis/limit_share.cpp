@@ -74,7 +74,8 @@ void LimitShare::segment(const FeedSegment& segment) {
         acceleration_sq += acceleration * acceleration;
         power += velocity * acceleration;
     }
-    const double feed = feed_mm_s();
+    const bool turns = !(linear_sq > 0.0) && feed_mm_s() == machine_.max_feed_mm_s;
+    const double feed = turns ? max_turning_deg_s(machine_) : feed_mm_s();
     bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed,
                         {feed < machine_.max_feed_mm_s ? LimitKind::feed : LimitKind::machine_feed});
     if (bound_.feed && feed < machine_.max_feed_mm_s) {

@@ -267,9 +267,6 @@ void PathGrid::take_powers(const CurveSegment<double>& segment, PerAxis<double>&
 }
 
 void PathGrid::take_feed(double programmed_mm_s) {
-    const double feed =
-        programmed_mm_s > 0.0 ? std::min(programmed_mm_s, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
-    feed_sq_ = feed * feed;
     bool linear_moves = false;
     double chord_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
@@ -280,6 +277,9 @@ void PathGrid::take_feed(double programmed_mm_s) {
         }
         chord_sq += chord * chord;
     }
+    const double most = linear_moves || programmed_mm_s > 0.0 ? machine_.max_feed_mm_s : max_turning_deg_s(machine_);
+    const double feed = programmed_mm_s > 0.0 ? std::min(programmed_mm_s, most) : most;
+    feed_sq_ = feed * feed;
     fastest_sq_ = linear_moves ? feed_sq_ + turning_sq_ : feed_sq_;
     const double quarter = feed_sq_ / (8.0 * softest_mm_s2_);
     least_level_ = chord_sq > quarter * quarter ? least_level_of_long : least_level;

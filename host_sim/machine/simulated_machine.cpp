@@ -55,7 +55,7 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
         (axis.on_path ? path_noise_sq : turning_noise_sq) += e * e;
     }
     feed_ = Allowance(machine.settings.max_feed_mm_s, std::sqrt(path_noise_sq));
-    turning_feed_ = Allowance(machine.settings.max_feed_mm_s, std::sqrt(turning_noise_sq));
+    turning_feed_ = Allowance(max_turning_deg_s(machine.settings), std::sqrt(turning_noise_sq));
 }
 
 // ---- the port

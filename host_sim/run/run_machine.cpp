@@ -14,8 +14,8 @@ namespace splinefeed::host {
 
 namespace {
 
-// Along a diagonal of all linear axes, or of the rotary ones where there are no others.
-double fastest_rapid_mm_s(const MachineSettings& machine) {
+// Rapids are limited by their axes alone: a diagonal of all that count is faster than any of them.
+void limit_rapids_by_axes(MachineSettings& machine) {
     constexpr double most = 10000.0; // as a machine file may state
     double linear_sq = 0.0;
     double rotary_sq = 0.0;
@@ -23,7 +23,9 @@ double fastest_rapid_mm_s(const MachineSettings& machine) {
         const double v = machine.axis[k].max_velocity_mm_s;
         (machine.axis[k].rotary ? rotary_sq : linear_sq) += v * v;
     }
-    return std::clamp(std::sqrt(linear_sq > 0.0 ? linear_sq : rotary_sq), machine.max_feed_mm_s, most);
+    const double stated = machine.max_feed_mm_s;
+    machine.max_feed_mm_s = std::clamp(std::sqrt(linear_sq > 0.0 ? linear_sq : rotary_sq), stated, most);
+    machine.max_turning_deg_s = std::clamp(std::sqrt(linear_sq + rotary_sq), stated, most);
 }
 
 } // namespace
@@ -35,7 +37,7 @@ RunMachine::RunMachine(MachineDescription stated, bool gcode)
     : machine(std::move(stated)), max_feed_mm_s(machine.settings.max_feed_mm_s),
       axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes) {
     if (gcode) {
-        machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
+        limit_rapids_by_axes(machine.settings);
     }
 }
 
@@ -54,6 +56,7 @@ PathMachine RunMachine::path() const {
 MachineDescription RunMachine::as_stated() const {
     MachineDescription stated = machine;
     stated.settings.max_feed_mm_s = max_feed_mm_s;
+    stated.settings.max_turning_deg_s = 0.0;
     return stated;
 }
 

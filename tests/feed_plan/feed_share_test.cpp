@@ -48,6 +48,14 @@ TEMPLATE_TEST_CASE("straight moves with a rotary axis", "[feed_plan][rotary]", d
     CHECK(seconds(machine, {30.0, 40.0, 1800.0}) == Approx(trapezoid_seconds(1800.0, 360.0, 3600.0)).epsilon(0.005));
     // Nothing but a: the feed is in degrees/s
     CHECK(seconds(machine, {0.0, 0.0, 90.0}) == Approx(trapezoid_seconds(90.0, 20.0, 3600.0)).epsilon(0.005));
+    // Without a programmed feed it may have a limit of its own, which linear axes do not have
+    MachineSettings turning = machine;
+    turning.max_turning_deg_s = 200.0;
+    const auto turned = [&](const PerAxis<double>& move) {
+        return plan_of<TestType>({line_shape(3, 3, move)}, turning, 1U << 14).seconds();
+    };
+    CHECK(turned({0.0, 0.0, 90.0}) == Approx(trapezoid_seconds(90.0, 200.0, 3600.0)).epsilon(0.005));
+    CHECK(turned({30.0, 40.0, 200.0}) == seconds(machine, {30.0, 40.0, 200.0}));
     // A linear axis that hardly moves is one that moves
     CHECK(seconds(machine, {0.1, 0.0, 1800.0}) == Approx(trapezoid_seconds(1800.0, 360.0, 3600.0)).epsilon(0.005));
     // Were a linear, it would count
@@ -65,6 +73,9 @@ TEMPLATE_TEST_CASE("programmed feeds count the linear axes", "[feed_plan][rotary
     const auto planned = plan_of<TestType>(path, machine, 1U << 14);
     const double least = trapezoid_seconds(30.0, 10.0, 1800.0) + trapezoid_seconds(60.0, 30.0, 3600.0);
     CHECK(planned.seconds() == Approx(least).epsilon(0.005));
+    MachineSettings turning = machine;
+    turning.max_turning_deg_s = 360.0;
+    CHECK(plan_of<TestType>(path, turning, 1U << 14).seconds() == planned.seconds());
 }
 
 // One place decides what is linear: a turn with the rounding of a post in x takes neither hours nor no time.

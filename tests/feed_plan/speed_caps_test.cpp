@@ -99,6 +99,17 @@ TEST_CASE("what is wanted is the programmed feed, with its override, up to the c
     CHECK(caps.wanted_sq(cell, cap, {.ratio = 0.5}) == cap);
     CHECK(caps.wanted_sq(cell, cap, {.ratio = 2.0, .rapids = 0.5}) == Approx(0.25 * cap).epsilon(1e-12));
     CHECK(caps.wanted_sq(cell, cap, {.most_mm_s = 50.0}) == Approx(50.0 * 50.0).epsilon(1e-4));
+    // A turn of its own, which a feed and its override do not reach
+    MachineSettings machine = two_axes();
+    machine.axis[1].rotary = true;
+    machine.axis[1].max_velocity_mm_s = 360.0;
+    machine.max_turning_deg_s = 4.0 * machine.max_feed_mm_s;
+    const auto turning = MotionLimits<double>::make(machine).value();
+    Cell<double> turn = cell_along(0.0, 1.0);
+    const double rapid = SpeedCaps<double>(turning).cap(turn).least_sq();
+    turn.feed_mm_s = 90.0;
+    CHECK(SpeedCaps<double>(turning).cap(turn).least_sq() == Approx(100.0 * 100.0).epsilon(1e-4));
+    CHECK(rapid > 1.5 * 100.0 * 100.0);
     // Even an override of 0 leaves a speed that a cell can be passed with: the hold is what stops.
     CHECK(caps.wanted_sq(cell, cap, {0.0}) > 0.0);
 }

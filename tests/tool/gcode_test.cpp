@@ -5,6 +5,7 @@
 #include "tool.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace splinefeed::test;
@@ -77,6 +78,29 @@ TEST_CASE("The examples in G-code run within their tolerance") {
         CHECK(summary["cycle_time_s"].get<double>() < 1.03 * summary["optimum_time_s"].get<double>());
         CHECK(summary_of(tool("plan " + program + machine))["cycle_time_s"] == summary["cycle_time_s"]);
     }
+}
+
+TEST_CASE("A rapid of rotary axes alone takes what their limits need") {
+    const Tool tool;
+    const auto axis = [](const char* name, const char* kind, int velocity) {
+        return fmt::format("[[axis]]\nname = '{}'\nkind = '{}'\nmax_velocity_mm_s = {}\nmax_acceleration_mm_s2 = {}\n",
+                           name, kind, velocity, 10 * velocity);
+    };
+    tool.write("m.toml", path_text(50) + axis("x", "linear", 100) + axis("y", "linear", 100) +
+                             axis("a", "rotary", 360) + axis("c", "rotary", 180));
+    const auto seconds = [&](const std::string& line) {
+        tool.write("p.ngc", line + "\nM2\n");
+        const json summary = summary_of(tool("run p.ngc -m m.toml --quiet --summary json"));
+        CAPTURE(line, summary["optimum_time_s"].get<double>());
+        CHECK(summary["cycle_time_s"].get<double>() >= summary["optimum_time_s"].get<double>());
+        CHECK(summary["cycle_time_s"].get<double>() < 1.001 * summary["optimum_time_s"].get<double>() + 0.002);
+        return summary["cycle_time_s"].get<double>();
+    };
+    CHECK(seconds("G0 A720") == Approx(2.1).margin(0.002));
+    CHECK(seconds("G0 A720 C360") == Approx(2.1).margin(0.002));
+    CHECK(seconds("G0 X10 A720") == Approx(2.1).margin(0.002));
+    CHECK(seconds("G1 A720 F21600") == Approx(14.414).margin(0.003)); // a feed is 50 at most
+    CHECK(seconds("G1 A720 F600") == Approx(72.003).margin(0.003));
 }
 
 TEST_CASE("A program from a pipe is the program from its file") {

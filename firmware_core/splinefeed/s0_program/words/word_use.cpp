@@ -106,6 +106,9 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
     if (block.code(CodeGroup::non_modal) == 100) {
         std::int32_t what = 0;
         std::int32_t system = 0;
+        if (to_integer(block.value('l'), what) && (what == 1 || what == 10 || what == 11)) {
+            return block.at(ProgramError::g10_tool_table, 'l');
+        }
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
             !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
             return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);

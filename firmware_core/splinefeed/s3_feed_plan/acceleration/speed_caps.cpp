@@ -112,7 +112,9 @@ S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
 
 template <Scalar S>
 S SpeedCaps<S>::fastest_feed(const Cell<S>& cell) const noexcept {
-    return cell.feed_along_path ? limits_.path_mm_s : limits_.feed_mm_s;
+    const bool turns = limits_.turning_mm_s > limits_.feed_mm_s && !(cell.feed_mm_s > S{}) && !cell.feed_along_path &&
+                       !feed_is_linear(cell, limits_);
+    return cell.feed_along_path ? limits_.path_mm_s : turns ? limits_.turning_mm_s : limits_.feed_mm_s;
 }
 
 template <Scalar S>

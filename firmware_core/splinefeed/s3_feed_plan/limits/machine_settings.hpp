@@ -42,12 +42,18 @@ struct MachineSettings {
     int axes = 3;
     PerAxis<AxisSettings> axis{};
     double max_feed_mm_s = 100.0;
+    double max_turning_deg_s = 0.0; ///< the same for moves without a programmed feed of rotary axes alone; 0: that
     double centripetal_mm_s2 = 0.0;
     double chord_error_mm = 0.0;
     int sample_period_us = 1000;
     /// 1 to 8, each a whole number of ticks of 1/8 us. 0: chosen so that the smoothing of the path stays below 0.35 um
     int segments_per_sample = 0;
 };
+
+/// What limits a move without a programmed feed where rotary axes move alone.
+constexpr double max_turning_deg_s(const MachineSettings& machine) noexcept {
+    return machine.max_turning_deg_s > machine.max_feed_mm_s ? machine.max_turning_deg_s : machine.max_feed_mm_s;
+}
 
 namespace detail {
 

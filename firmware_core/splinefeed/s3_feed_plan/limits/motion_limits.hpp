@@ -31,6 +31,7 @@ struct MotionLimits {
     PerAxis<S> braking_mm_s2{};                ///< against the axis's velocity
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
     S feed_mm_s{};                             ///< the part of max_feed_mm_s that planning may use
+    S turning_mm_s{};                          ///< the same of max_turning_deg_s; at least feed_mm_s
     S path_mm_s{}; ///< upper limit of the speed along the path, over all axes; without rotary axes feed_mm_s
     PerAxis<bool> rotary{};
     PerAxis<S> end_velocity_mm_s{};        ///< of an axis outside Refinement::open; 0: no such limit
@@ -312,6 +313,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
+    limits.turning_mm_s = limits.usable_feed(from_double<S>(max_turning_deg_s(settings)));
     limits.path_mm_s = limits.mixed ? from_double<S>(timing.path_mm_s * usable) : limits.feed_mm_s;
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, timing.period_s));
