@@ -26,8 +26,9 @@ public:
     [[nodiscard]] Dialect dialect() const noexcept;
     /// The strongest evidence: "'M104 S200' on line 12". Empty: there is none.
     [[nodiscard]] std::string reason() const;
-    /// Lines that dialects with some evidence read otherwise than `taken`, and how; where no more than a word says whose
-    /// the program is, those of all controllers of mills. Empty: there are none, or a comment names the controller.
+    /// Lines that dialects with some evidence read otherwise than `taken`, and how; where no more than a word says
+    /// whose the program is, those of all controllers of mills. Empty: there are none, or a comment names the
+    /// controller.
     [[nodiscard]] std::string differences(Dialect taken) const;
 
 private:
