@@ -18,6 +18,10 @@ bool has_letter_of(std::string_view plain, std::string_view letters) noexcept {
     return plain.find_first_of(letters) != std::string_view::npos;
 }
 
+bool has(std::string_view plain, std::string_view word) noexcept {
+    return plain.find(word) != std::string_view::npos;
+}
+
 /// What is behind P, up to the next letter.
 std::string_view dwell_of(std::string_view text) {
     const std::size_t at = text.find_first_of("pP");
@@ -56,9 +60,8 @@ struct Kind {
 };
 
 constexpr Kind all_kinds[] = {
-    {[](std::string_view plain) { return plain.find("g4p") != plain.npos || plain.find("g04p") != plain.npos; },
-     dwells},
-    {[](std::string_view plain) { return plain.find("g28") != plain.npos && plain.find("g28.") == plain.npos; }, homes},
+    {[](std::string_view plain) { return has(plain, "g4p") || has(plain, "g04p"); }, dwells},
+    {[](std::string_view plain) { return has(plain, "g28") && !has(plain, "g28."); }, homes},
     {[](std::string_view plain) { return has_letter_of(plain, "abc") && has_letter_of(plain, "xyz"); }, counts_feed},
     {has_lathe_tool, selects},
 };
@@ -67,14 +70,14 @@ constexpr Kind all_kinds[] = {
 
 bool has_lathe_tool(std::string_view plain) noexcept {
     const std::size_t at = plain.find_first_of("mt"); // T of M204 is a printer's
-    const std::size_t end = at == plain.npos ? at : plain.find_first_not_of("0123456789", at + 1);
-    return at != plain.npos && plain[at] == 't' && std::min(end, plain.size()) - at == 5;
+    const std::size_t end = at == std::string_view::npos ? at : plain.find_first_not_of("0123456789", at + 1);
+    return at != std::string_view::npos && plain[at] == 't' && std::min(end, plain.size()) - at == 5;
 }
 
 void LineReadings::add(std::string_view code, std::string_view plain, std::uint64_t number) {
     static_assert(std::size(all_kinds) == kinds);
     has_feed_ = has_feed_ || has_letter_of(plain, "f");
-    inverse_time_ = (inverse_time_ || plain.find("g93") != plain.npos) && plain.find("g94") == plain.npos;
+    inverse_time_ = (inverse_time_ || has(plain, "g93")) && !has(plain, "g94");
     for (std::size_t kind = 0; kind < kinds; ++kind) {
         const bool read_alike = (!has_feed_ || inverse_time_) && all_kinds[kind].reading == counts_feed;
         if (lines_[kind].number == 0 && !read_alike && all_kinds[kind].is(plain)) {
