@@ -235,7 +235,10 @@ private:
             return {};
         }
         text_.go_to(start);
-        return fits ? ProgramError::parameter_unset : ProgramError::number_out_of_range;
+        const bool of_linuxcnc = name.find('[') != std::string_view::npos;
+        return !fits         ? ProgramError::number_out_of_range
+               : of_linuxcnc ? ProgramError::parameter_of_linuxcnc
+                             : ProgramError::parameter_unset;
     }
 
     TextCursor& text_;

@@ -71,6 +71,8 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::arc_function_argument, "ASIN and ACOS take a number from -1 to 1"},
     {ProgramError::parameter_name_invalid, "a parameter is #1, #[...] or #<name>"},
     {ProgramError::parameter_out_of_range, "the number of a parameter is a whole number from 1 to 5602"},
+    {ProgramError::parameter_of_linuxcnc,
+     "#<_hal[...]> and #<_ini[...]> are pins and settings of LinuxCNC, which are not known here; write the number"},
     {ProgramError::parameter_unset, "the parameter has no value yet; set it first, or ask EXISTS[#<name>]"},
     {ProgramError::parameter_read_only, "the parameter is the control's, and cannot be set"},
     {ProgramError::parameter_storage_full, "the parameter cannot be stored: no room, or its value is out of range"},
@@ -97,6 +99,9 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::g53_unsuited, "G53 needs G0 or G1 in effect, and G90"},
     {ProgramError::g10_invalid,
      "G10 takes L2 or L20 with P0 to P9 for the system (0: the one in effect), and R with L2 only"},
+    {ProgramError::g10_tool_table,
+     "G10 L1, L10 and L11 write the tool table, which a program cannot do here; state the "
+     "tool's offsets in the table, or by G43.1"},
     {ProgramError::g92_axes_missing, "this G word needs at least one axis word, for the axes that it sets"},
     {ProgramError::arc_centre_missing,
      "an arc needs its centre, by the two of I, J, K that lie in its plane, or R; under G90.1 both"},
