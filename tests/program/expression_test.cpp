@@ -161,7 +161,7 @@ TEST_CASE("wrong expressions are refused where they are wrong", "[program][expre
     value_of(run, "foo[1]", ProgramError::function_unknown, 1);
     value_of(run, "sin 3", ProgramError::bracket_missing, 5);
     value_of(run, "#<none>", ProgramError::parameter_unset, 1);
-    value_of(run, "1 + #<_hal[plasmac.cut-feed-rate]>", ProgramError::parameter_of_linuxcnc, 5);
+    value_of(run, "[1 + #<_hal[plasmac.cut-feed-rate]>]", ProgramError::parameter_of_linuxcnc, 6);
     value_of(run, "#<_ini[traj]linear_units>", ProgramError::parameter_of_linuxcnc, 1);
     value_of(run, "#<none", ProgramError::parameter_name_invalid);
     value_of(run, "#0", ProgramError::parameter_out_of_range, 2);

@@ -106,9 +106,6 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
     if (block.code(CodeGroup::non_modal) == 100) {
         std::int32_t what = 0;
         std::int32_t system = 0;
-        if (to_integer(block.value('l'), what) && (what == 1 || what == 10 || what == 11)) {
-            return block.at(ProgramError::g10_tool_table, 'l');
-        }
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
             !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
             return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);
@@ -203,6 +200,13 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, const Dia
     return {};
 }
 
+// G10 of LinuxCNC's that needs a table which can be written: its other letters say nothing then.
+bool writes_tool_table(const Block& block) noexcept {
+    std::int32_t what = 0;
+    return block.code(CodeGroup::non_modal) == 100 && to_integer(block.value('l'), what) &&
+           (what == 1 || what == 10 || what == 11);
+}
+
 } // namespace
 
 BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, const DialectRules& rules,
@@ -217,6 +221,9 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
     }
     if (block.code(CodeGroup::stop) >= 97 || block.code(CodeGroup::spindle) >= 70) { // and G65
         return block.at(ProgramError::o_word, block.code(CodeGroup::stop) >= 97 ? CodeGroup::stop : CodeGroup::spindle);
+    }
+    if (writes_tool_table(block)) {
+        return block.at(ProgramError::g10_tool_table, 'l');
     }
     if (modal.motion == ModalState::lost_motion && !block.has(CodeGroup::motion) && !block.has(CodeGroup::non_modal)) {
         return {}; // whose words they are is not known
