@@ -291,7 +291,7 @@ private:
             return {};
         }
         text_.go_to(start);
-        const bool of_linuxcnc = name.find('[') != std::string_view::npos;
+        const bool of_linuxcnc = name.size() > 4 && name[4] == '['; // _hal[ and _ini[, without memchr on boards
         return !fits         ? ProgramError::number_out_of_range
                : of_linuxcnc ? ProgramError::parameter_of_linuxcnc
                              : ProgramError::parameter_unset;
