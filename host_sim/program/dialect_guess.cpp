@@ -57,22 +57,22 @@ constexpr Sign comment_signs[] = {
 
 // Words that only one of them has; each counts once a line.
 constexpr Sign word_signs[] = {
-    {"m104", Dialect::marlin, 5},  {"m109", Dialect::marlin, 5},    {"m140", Dialect::marlin, 5},
-    {"m190", Dialect::marlin, 5},  {"m106", Dialect::marlin, 5},    {"m107", Dialect::marlin, 5},
-    {"m82", Dialect::marlin, 5},   {"m83", Dialect::marlin, 5},     {"m84", Dialect::marlin, 5},
-    {"m115", Dialect::marlin, 5},  {"m117", Dialect::marlin, 5},    {"m201", Dialect::marlin, 5},
-    {"m203", Dialect::marlin, 5},  {"m204", Dialect::marlin, 5},    {"m205", Dialect::marlin, 5},
-    {"m220", Dialect::marlin, 5},  {"m221", Dialect::marlin, 5},    {"m400", Dialect::marlin, 5},
-    {"m862", Dialect::marlin, 5},  {"m900", Dialect::marlin, 5},    {"g92e", Dialect::marlin, 5},
-    {"g64", Dialect::linuxcnc, 5}, {"m66", Dialect::linuxcnc, 5},   {"m62", Dialect::linuxcnc, 5},
-    {"g15", Dialect::fanuc, 5},    {"g50", Dialect::fanuc, 5},      {"g69", Dialect::fanuc, 5},
-    {"g28u", Dialect::fanuc, 5},   {"g28w", Dialect::fanuc, 5},     {"g28v", Dialect::fanuc, 5},
-    {"g154", Dialect::fanuc, 5},   {"g65", Dialect::fanuc, 5},      {"m97", Dialect::fanuc, 5},
-    {"g187", Dialect::fanuc, 5},   {"m98", Dialect::fanuc, 3},      {"m99", Dialect::fanuc, 3},
-    {"m73", Dialect::marlin, 5},   {"m486", Dialect::marlin, 5},    {"m92", Dialect::marlin, 5},
-    {"m17", Dialect::marlin, 5},   {"m18", Dialect::marlin, 5},     {"m300", Dialect::marlin, 5},
-    {"m64", Dialect::linuxcnc, 3}, {"m65", Dialect::linuxcnc, 3},   {"m67", Dialect::linuxcnc, 5},
-    {"m68", Dialect::linuxcnc, 5}, {"g33.1", Dialect::linuxcnc, 5},
+    {"m104", Dialect::marlin, 6},  {"m109", Dialect::marlin, 6},    {"m140", Dialect::marlin, 6},
+    {"m190", Dialect::marlin, 6},  {"m106", Dialect::marlin, 6},    {"m107", Dialect::marlin, 6},
+    {"m82", Dialect::marlin, 6},   {"m83", Dialect::marlin, 6},     {"m84", Dialect::marlin, 6},
+    {"m115", Dialect::marlin, 6},  {"m117", Dialect::marlin, 6},    {"m201", Dialect::marlin, 6},
+    {"m203", Dialect::marlin, 6},  {"m204", Dialect::marlin, 6},    {"m205", Dialect::marlin, 6},
+    {"m220", Dialect::marlin, 6},  {"m221", Dialect::marlin, 6},    {"m400", Dialect::marlin, 6},
+    {"m862", Dialect::marlin, 6},  {"m900", Dialect::marlin, 6},    {"g92e", Dialect::marlin, 6},
+    {"g64", Dialect::linuxcnc, 6}, {"m66", Dialect::linuxcnc, 6},   {"m62", Dialect::linuxcnc, 6},
+    {"g15", Dialect::fanuc, 6},    {"g50", Dialect::fanuc, 6},      {"g69", Dialect::fanuc, 6},
+    {"g28u", Dialect::fanuc, 6},   {"g28w", Dialect::fanuc, 6},     {"g28v", Dialect::fanuc, 6},
+    {"g154", Dialect::fanuc, 6},   {"g65", Dialect::fanuc, 6},      {"m97", Dialect::fanuc, 6},
+    {"g187", Dialect::fanuc, 6},   {"m98", Dialect::fanuc, 3},      {"m99", Dialect::fanuc, 3},
+    {"m73", Dialect::marlin, 6},   {"m486", Dialect::marlin, 6},    {"m92", Dialect::marlin, 6},
+    {"m17", Dialect::marlin, 6},   {"m18", Dialect::marlin, 6},     {"m300", Dialect::marlin, 6},
+    {"m64", Dialect::linuxcnc, 3}, {"m65", Dialect::linuxcnc, 3},   {"m67", Dialect::linuxcnc, 6},
+    {"m68", Dialect::linuxcnc, 6}, {"g33.1", Dialect::linuxcnc, 6},
 };
 
 // What a line of a macro begins with behind its number. No other dialect reads such a program, whatever else it has.
@@ -165,7 +165,7 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
     if (numbered) {
         count(Dialect::fanuc, percent_ ? 5 : 3, code, line);
     } else if (text[0] == 'o' || text.find("#<") != std::string::npos) {
-        count(Dialect::linuxcnc, 5, code, line);
+        count(Dialect::linuxcnc, 6, code, line);
         return;
     } else if (text[0] == '#' || text.find('[') != std::string::npos) { // Fanuc's where something else says so
         count(Dialect::linuxcnc, 3, code, line);
@@ -185,7 +185,7 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
     const bool moves = has_word(text, "g1") || has_word(text, "g0") || has_word(text, "g01") || has_word(text, "g00");
     const std::size_t filament = code.find_first_of("eE");
     if (moves && filament != std::string_view::npos && filament > 0 && code[filament - 1] == ' ') { // no exponent
-        count(Dialect::marlin, 5, code, line);
+        count(Dialect::marlin, 6, code, line);
     }
 }
 
@@ -220,7 +220,7 @@ std::string DialectGuess::differences(Dialect taken) const {
     std::vector<Dialect> others;
     for (std::size_t i = 0; i < dialects; ++i) {
         const auto other = static_cast<Dialect>(i);
-        if (other != taken && (evidence_[i].points > 0 || (best.points < 2 * enough && !rules_of(other).extruder))) {
+        if (other != taken && (evidence_[i].points > 0 || (best.best <= enough && !rules_of(other).extruder))) {
             others.push_back(other);
         }
     }

@@ -19,7 +19,8 @@ class DialectGuess {
 public:
     static constexpr std::uint64_t most_lines = 200;
     static constexpr std::size_t dialects = 5;
-    static constexpr int enough = 5; ///< points of evidence: that of one word which is no other dialect's
+    static constexpr int enough =
+        5; ///< points of evidence: one usual sign; a word that no other dialect has counts more
     static constexpr int named = 20; ///< those of a comment that names the controller
 
     void add(std::string_view line, std::uint64_t number);
