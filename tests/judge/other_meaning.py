@@ -29,7 +29,7 @@ STILL = {3, 4, 5, 7, 8, 9}  # M words that move nothing
 PRINTER_STILL = {82, 83, 84, 104, 106, 107, 109, 117, 140}
 # Words of other controls, or of no one: each changes the path, its place or the order of the blocks.
 FOREIGN = ("G68 X0 Y0 R90", "G16", "G51 X0 Y0 P2", "G51.1 X0", "G65 P9000 A1", "G66 P9000", "G12 I5", "G54.1 P2", "G154 P3", "G107 X1", "G234",
-           "IF [#1 EQ 5] GOTO 10", "WHILE[#1LT5]DO1", "N50 GOTO 10", "END1", "(ABORT, no part)", "TRANS X5", "ROT Z30", "M98 P77", "M99 P20",
+           "IF [#1 EQ #0] GOTO 10", "WHILE[#1LT5]DO1", "N50 GOTO 10", "END1", "(ABORT, no part)", "TRANS X5", "ROT Z30", "M98 P77", "M99 P20",
            "SET_GCODE_OFFSET Z=1", "SAVE_GCODE_STATE NAME=a", "$J=G91X5F100", "$RST=#", "SDCARD_LOOP_BEGIN COUNT=2")
 OF_LATHES = ("T0101", "G50 S2000", "G92 X40. Z-20. F1.5", "G0 X42. Z2.\nG90 X38. Z-20. F0.2", "G75 X1 Z2 P3 Q4", "G71 U2. R1.", "G21\nG99 G1 X5 F0.2", "G96 S200")
 LATHE_ROWS = {row for rows in OF_LATHES for row in rows.split("\n") if not row.startswith(("G0 ", "G21"))}
