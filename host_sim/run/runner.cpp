@@ -4,6 +4,7 @@
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"
+#include "host_sim/base/text_file.hpp"
 #include "host_sim/live/live_machine.hpp"
 #include "host_sim/live/output_table.hpp"
 #include "host_sim/live/target_fit.hpp"
