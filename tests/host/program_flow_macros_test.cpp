@@ -4,29 +4,16 @@
 #include "host_sim/program/gcode/macro_variables.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "support/catch.hpp"
+#include "text_lines.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 
-#include <sstream>
-
 using namespace splinefeed;
 using namespace splinefeed::host;
+using splinefeed_test::TextLines;
 
 namespace {
-
-class TextLines final : public SourceLines {
-public:
-    explicit TextLines(const std::string& text) : text_(text) {}
-    bool next(SourceLine& out) override {
-        out.number = ++lines_;
-        return static_cast<bool>(std::getline(text_, out.text));
-    }
-
-private:
-    std::istringstream text_;
-    std::uint64_t lines_ = 0;
-};
 
 /// The X of each move and "stop" for a pause, or the error; with `problems` all errors go there.
 std::string run(const std::string& text, ProblemList* problems = nullptr, FlowRules rules = {}) {

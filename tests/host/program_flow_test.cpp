@@ -3,30 +3,18 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "support/catch.hpp"
+#include "text_lines.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
+using splinefeed_test::TextLines;
 
 namespace {
-
-class TextLines final : public SourceLines {
-public:
-    explicit TextLines(const std::string& text) : text_(text) {}
-    bool next(SourceLine& out) override {
-        out.number = ++lines_;
-        return static_cast<bool>(std::getline(text_, out.text));
-    }
-
-private:
-    std::istringstream text_;
-    std::uint64_t lines_ = 0;
-};
 
 /// The X of each move, or the error; with `problems` all errors go there.
 std::string run(const std::string& text, ProblemList* problems = nullptr, const FlowRules& rules = {}) {
