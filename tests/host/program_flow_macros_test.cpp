@@ -175,6 +175,8 @@ TEST_CASE("M99 at the end of a main program ends it, and leads to a block") {
     CHECK(run("G0 X1\nN5 X2 M99 (again)\nX3") == " 1 2 end");
     CHECK(run("G0 X1\nIF [1] GOTO 5\nX2\nN5 M99\nX3") == " 1 end");
     CHECK(run("#1=0\nN5 G0 X#1\n#1=#1+1\nIF [#1 GT 2] GOTO 9\nM99 P5\nN9 M30") == " 0 1 2");
+    says("O2\nG0 X1\nM99\nO1\nX5\nM98 P2\nM30",
+         "p.nc:3:1: M99 ends a subprogram that M98 has called; the main program");
     says("G0 X1\nO5\nM99", "p.nc:3:1: M99 ends a subprogram that M98 has called"); // the sub is no part of the main one
 }
 

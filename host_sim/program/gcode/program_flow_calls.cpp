@@ -108,8 +108,8 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     }
     const bool is_main =
         std::ranges::all_of(frames_, [](const Frame& frame) { return frame.call == Call::none; }) && !passed_program_;
-    if (is_main && rules_.macros) {
-        end_main(word, line);
+    if (is_main && word.has_number && rules_.macros) {
+        jump(word, line, word.label_at);
         return;
     }
     if (word.has_number && !rules_.macros) {
@@ -123,6 +123,10 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
         if (std::any_of(rest, ahead_.end(), [](const SourceLine& later) { return has_program_end(later.text); })) {
             fail(line, word.label_at,
                  "M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first");
+        }
+        if (rules_.macros) {
+            end_main(word, line);
+            return;
         }
         abandon();
         restoring_.push_back({"M30", line.number});

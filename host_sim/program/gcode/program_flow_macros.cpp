@@ -307,10 +307,6 @@ void ProgramFlow::require_same_locals(const FlowWord& word, const SourceLine& li
 
 // M99 at the end of the main program, where controls begin it again.
 void ProgramFlow::end_main(const FlowWord& word, const SourceLine& line) {
-    if (word.has_number) {
-        jump(word, line, word.label_at);
-        return;
-    }
     stops_ = true;
     given_ = word.others;
     if (rules_.left_out != nullptr) {
