@@ -45,6 +45,7 @@ std::string run(const std::string& text, ProblemList* problems = nullptr, const 
                                                    : " end";
             }
         }
+        out += flow.has_ended() && !interpreter.has_ended() ? " end" : "";
     } catch (const InputError& error) {
         return error.what();
     }

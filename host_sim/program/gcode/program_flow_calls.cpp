@@ -124,12 +124,7 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
             fail(line, word.label_at,
                  "M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first");
         }
-        if (rules_.macros) {
-            end_main(word, line);
-            return;
-        }
-        abandon();
-        restoring_.push_back({"M30", line.number});
+        end_main(word, line);
         return;
     }
     leave_to(Call::program, word, line,
