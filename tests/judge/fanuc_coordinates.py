@@ -4,7 +4,7 @@ G51.1 with their ends. It may understand more than the tool takes."""
 import cmath
 import math
 
-WORDS = {50, 50.1, 51, 51.1, 52, 54.1, 68, 69, 154}
+WORDS = {50, 50.1, 51, 51.1, 52, 54.1, 68, 69, 154, *range(110, 130)}
 AXES = "XYZA"
 
 
@@ -61,6 +61,8 @@ class Coordinates:
             if number != int(number) or not 1 <= number <= (48 if code == 54.1 else 99):
                 raise Unclear(text)
             self.system = int(number)
+        for code in set(codes) & set(range(110, 130)):
+            self.system = int(code) - 109
         taking = set(codes) & {50.1, 51, 51.1, 52, 68}
         if len(taking) > 1:
             raise Unclear(text)

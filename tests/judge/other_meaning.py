@@ -288,7 +288,7 @@ def random_program(numbers, dialect):
                   lambda: f"G90 G98 G81 X{near()} Y{near()} Z-3. R1. F90. {numbers.choice('LK')}0\nX{near()}\nG80"]
         shape = lambda: f"G90 G0 X{near()} Y{near()}\nG1 X{near()} F600.\nG2 X{near()} Y{near()} R90.\nG91 G1 Y{near()}\nG90"
         lines += [lambda: f"G10 L20 P{numbers.randint(1, 3)} X{near()} Z{near()}", lambda: f"G91 G10 L{numbers.choice((2, 20))} P1 Y{near()}\nG90",
-                  lambda: f"G54.1 P{numbers.randint(1, 3)}", lambda: f"G154 P{numbers.randint(1, 3)} G0 X{near()}", lambda: f"G90 G52 X{near()} Y{near()}",
+                  lambda: f"G54.1 P{numbers.randint(1, 3)}", lambda: f"G{numbers.randint(110, 112)}", lambda: f"G154 P{numbers.randint(1, 3)} G0 X{near()}", lambda: f"G90 G52 X{near()} Y{near()}",
                   lambda: "G90 G52 X0 Y0 Z0", lambda: "G69", lambda: "G50", lambda: "G50.1 X0 Y0",
                   lambda: f"G68 X{near()} Y{near()} R{near(180)}\n{shape()}\nG69\n{shape()}", lambda: f"G90 G68 R{near(180)}\n{shape()}\nG69",
                   lambda: f"G51 X{near()} Y{near()} P{some(0.2, 4)}\n{shape()}\nG50\n{shape()}", lambda: f"G51 P1.5\nG68 X1. Y2. R30.\n{shape()}\nG69\nG50",

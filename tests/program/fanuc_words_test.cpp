@@ -83,6 +83,21 @@ TEST_CASE("further work systems have origins of their own, which G10 L20 writes"
     CHECK(of.moves("G43.1 Z10\nG54.1 P3 Z0") == "rapid 10 50 10");
 }
 
+TEST_CASE("further work systems have other names, too", "[program][fanuc_words]") {
+    FanucRun of;
+    CHECK(of.moves("G10 L20 P1 X100\nG10 L20 P20 X200\nG110 G0 X0\nG129 X0\nG54 X0\nG54 P1 X0") ==
+          "rapid 100 0 0\nrapid 200 0 0\nrapid 0 0 0\nrapid 100 0 0");
+    CHECK(of.moves("F60 G54 G98 G82 X1 Y1 Z-1 R1 P500\nG80 G54 G64 P0.1\nG0 X2") // P is that of the cycle, and of G64
+              .find("rapid 101") == std::string::npos);
+    CHECK(of.fault("G54 P49") == FanucFault::system_number);
+    CHECK(of.error("G110 P2") == ProgramError::word_unused);
+    CHECK(of.error("G54.1 P2 Q2") == ProgramError::word_unused);
+    CHECK(of.error("G52 X2 P2") == ProgramError::word_unused);
+    CHECK(of.error("G110.5") == ProgramError::g_code_unknown);
+    FanucRun few(4);
+    CHECK(few.fault("G114") == FanucFault::system_number);
+}
+
 TEST_CASE("a further work system is a number, alone with its P", "[program][fanuc_words]") {
     FanucRun of;
     for (const char* const line : {"G54.1", "G54.1 P0", "G54.1 P49", "G154 P100", "G54.1 P1.5", "G4 G54.1 P1"}) {
@@ -140,7 +155,7 @@ TEST_CASE("G68 turns lines, arcs, cycles and increments in the plane", "[program
     CHECK(of.moves("G91 G1 X1\nG90 G98 G81 X5 Y1 Z-1 R1\nG80") ==
           "feed 10 21 5\nrapid 9 -5 5\nrapid 9 -5 1\nfeed 9 -5 -1\nrapid 9 -5 5");
     CHECK(of.moves("G69\nG0 X1 Y2") == "rapid 1 2 5");
-    CHECK(of.moves("G52 X100\nG68 X0 Y0 R-90\nX1 Y0 A3\nG69 G52 X0 G0") == "rapid 100 -1 5");
+    CHECK(of.moves("G52 X100\nG68 X0 Y0 R-90\nX1 Y0 A3\nG69 G52 X0") == "rapid 100 -1 5");
 }
 
 TEST_CASE("the centre of a rotation may be where the tool stands", "[program][fanuc_words]") {
@@ -174,7 +189,7 @@ TEST_CASE("what controls do not agree on in a rotation is refused", "[program][f
     CHECK(of.error("G68 X0 Y0 R30 G28") == ProgramError::axis_words_twice);
     CHECK(of.error("G68 X2000000 Y0 R30") == ProgramError::position_out_of_range);
     CHECK(of.fault("G68 G69 X0 Y0 R30") == FanucFault::order);
-    CHECK(of.error("G52 X1 G50.1 X0") == ProgramError::axis_words_twice);
+    CHECK(of.error("G52 Y1 G50.1") == ProgramError::axis_words_twice);
     CHECK(of.error("G1 G68 X0 Y0 R30") == ProgramError::feed_missing);
     CHECK(of.moves("G0 X1 Y2") == "rapid 1 2 0"); // it has been taken back
 }

@@ -152,6 +152,7 @@ struct CodeRows {
         Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},
         Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
         Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported, in_fanuc},
+        Row{1100, 1290, extension, ProgramError::none, in_fanuc},
         Row{1540, 1540, extension, ProgramError::none, in_fanuc},
     };
 

@@ -13,7 +13,15 @@ namespace {
 
 constexpr std::int32_t most_of_fanuc = 48;
 constexpr std::int32_t most_of_haas = 99;
+constexpr std::int16_t first_named = 1100; // G110 to G129 are G154 P1 to P20
+constexpr std::int16_t last_named = 1290;
 constexpr Decimal longest_dwell = Decimal::from_integer(60); // in a hole [s]
+
+// G54 P3 is G54.1 P3, where P is no other word's.
+bool is_further(const Block& block, std::int16_t motion) noexcept {
+    return block.code(CodeGroup::work_system) == 540 && block.has('p') && !block.has(CodeGroup::non_modal) &&
+           !block.has(CodeGroup::path_mode) && !block.has(CodeGroup::without_effect) && !is_cycle(motion);
+}
 
 } // namespace
 
@@ -40,6 +48,10 @@ void FanucWords::take(std::int32_t tenths, const Block& block, CodeInfo& info) n
         {500, end_scale_word, CodeGroup::without_effect},  {511, mirror_word, CodeGroup::without_effect},
         {501, end_mirror_word, CodeGroup::without_effect}};
     words_ = block.has_codes() ? words_ : 0;
+    if (tenths >= first_named && tenths <= last_named && tenths % 10 == 0) {
+        info.group = CodeGroup::work_system;
+        words_ |= further_word;
+    }
     for (const Row& row : rows) {
         if (row.tenths == tenths) {
             info.group = row.group;
@@ -58,7 +70,7 @@ BlockStatus FanucWords::adapt(Block& block, const ModalState& modal, const AxisL
     }
     const bool is_other = in.words != 0 || in.modeless == 100 || state_.turn.applies() || state_.unstated != 0 ||
                           (in.modeless == 920 && moves_program()) ||
-                          (block.has(CodeGroup::work_system) && state_.further != 0);
+                          (block.has(CodeGroup::work_system) && state_.further != 0) || is_further(block, in.motion);
     if (!is_other) { // most blocks
         return {};
     }
@@ -97,18 +109,21 @@ BlockStatus FanucWords::read_words(const FanucBlock& in) noexcept {
 }
 
 BlockStatus FanucWords::read_system(const FanucBlock& in) noexcept {
-    if ((in.words & further_word) == 0) {
+    const std::int16_t code = in.block.code(CodeGroup::work_system);
+    if ((in.words & further_word) == 0 && !is_further(in.block, in.motion)) {
         moves_ = moves_ || (in.block.has(CodeGroup::work_system) && state_.further != 0);
         next_.further = in.block.has(CodeGroup::work_system) ? 0 : next_.further;
         return {};
     }
-    const std::int32_t most = in.block.code(CodeGroup::work_system) == 541 ? most_of_fanuc : most_of_haas;
+    const bool is_named = code >= first_named && code <= last_named;
+    const std::int32_t most = code <= 541 ? most_of_fanuc : most_of_haas;
     const bool takes_p = in.modeless == 40 || in.modeless == 100 || (in.words & scale_word) != 0;
-    if (takes_p || !to_integer(in.parameter(), next_.further) || next_.further < 1 || next_.further > most ||
-        next_.further > static_cast<std::int32_t>(further_.size())) {
+    next_.further = (code - first_named) / 10 + 1;
+    if ((!is_named && (takes_p || !to_integer(in.parameter(), next_.further))) || next_.further < 1 ||
+        next_.further > most || next_.further > static_cast<std::int32_t>(further_.size())) {
         return wrong(in, FanucFault::system_number, CodeGroup::work_system);
     }
-    return finish(in, CodeGroup::work_system, Block::bits("p"));
+    return finish(in, CodeGroup::work_system, is_named ? 0 : Block::bits("p"));
 }
 
 // G10 L2 and L20: what the origin is, under G91 what is added to it.
@@ -161,18 +176,21 @@ BlockStatus FanucWords::read_local(const FanucBlock& in) noexcept {
     return shifts ? finish(in, CodeGroup::non_modal, in.letters.bits()) : BlockStatus{};
 }
 
-// The words of the block that have been taken: no other code has them.
+// The words of the block that have been taken. The interpreter then sees what it may ask for: that coordinates change.
 BlockStatus FanucWords::finish(const FanucBlock& in, CodeGroup group, std::uint32_t letters) noexcept {
     constexpr std::uint32_t rest = Block::bits("ijklpqr");
     moves_ = true;
     in.block.keep(~letters);
-    if (group !=
-        CodeGroup::without_effect) { // so that the interpreter does not execute it, and knows that there was one
-        const std::uint16_t column = in.block.at(ProgramError::none, group).column;
+    const std::uint16_t column = in.block.at(ProgramError::none, group).column;
+    if (group == CodeGroup::work_system) { // other words of the block may have the other letters
+        in.block.set_code(group, 540, column);
+        return {};
+    }
+    if (group == CodeGroup::non_modal) {
         in.block.set_code(CodeGroup::without_effect, in.block.code(group), column);
         in.block.set_code(group, Block::no_code, column);
     }
-    for (char letter = 'i'; letter <= 'r' && group != CodeGroup::work_system; ++letter) {
+    for (char letter = 'i'; letter <= 'r'; ++letter) {
         if (in.block.has(letter) && (rest & Block::letter_bit(letter)) != 0) {
             return in.block.at(ProgramError::word_unused, letter);
         }
