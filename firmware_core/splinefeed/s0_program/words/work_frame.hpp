@@ -48,7 +48,7 @@ public:
 private:
     void turn(AxisPoint& point, const SineCosine& by, bool back) const noexcept;
     [[nodiscard]] const WorkSystem& system() const noexcept;
-    [[nodiscard]] AxisPoint leave(const WorkSystem& system, const AxisPoint& machine) const noexcept;
+    [[nodiscard]] AxisPoint leave(const WorkSystem& of, const AxisPoint& machine) const noexcept;
 
     WorkOffsets offsets_{};
     const WordExtension* extension_;
