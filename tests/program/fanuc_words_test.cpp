@@ -278,6 +278,19 @@ TEST_CASE("a refused line leaves all as it was", "[program][fanuc_words]") {
     }
 }
 
+TEST_CASE("whoever looks for further errors goes on without the words that are refused", "[program][fanuc_words]") {
+    FanucRun of;
+    of.run.run("G0 X1 Y1");
+    for (const char* const line :
+         {"G154 P100 X9", "G129.5 X9", "G10 L20 P0 X9", "G68 X9 R3", "G51 X9 P2", "G51.1 A9", "G91 G52 P1"}) {
+        CAPTURE(line);
+        CHECK_FALSE(of.run.push(line).ok());
+        of.run.interpreter().obey_refused();
+        CHECK(of.moves("G90 X1 Y1") == "rapid 1 1 0");
+        CHECK_FALSE(of.words.moves_program());
+    }
+}
+
 TEST_CASE("a dwell in a hole of more than a minute by a decimal point is refused", "[program][fanuc_words]") {
     CHECK(fault("F60", "G82 X1 Y1 Z-1 R1 P500.") == FanucFault::dwell_point);
     CHECK(fault("F60", "G82 X1 Y1 Z-1 R1 P0.5") == FanucFault::none);

@@ -76,7 +76,23 @@ BlockStatus FanucWords::adapt(Block& block, const ModalState& modal, const AxisL
     }
     next_ = state_;
     stores_ = true;
-    return read_words(in);
+    const BlockStatus status = read_words(in);
+    if (!status.ok()) { // whoever looks for further errors executes the rest of the block
+        stores_ = moves_ = false;
+        origin_.number = 0;
+        leave(in);
+    }
+    return status;
+}
+
+// The words of a refused block are no other code's.
+void FanucWords::leave(const FanucBlock& in) noexcept {
+    if (in.words != 0 || in.modeless == 100) {
+        in.block.keep(Block::bits("fnst"));
+    }
+    if ((in.words & further_word) != 0) {
+        in.block.set_code(CodeGroup::work_system, Block::no_code, 1);
+    }
 }
 
 BlockStatus FanucWords::read_words(const FanucBlock& in) noexcept {
@@ -103,7 +119,8 @@ BlockStatus FanucWords::read_words(const FanucBlock& in) noexcept {
         }
     }
     if (moves_ && cutter) {
-        return in.block.at(ProgramError::cutter_active, CodeGroup::without_effect);
+        return in.block.at(ProgramError::cutter_active,
+                           in.block.has(CodeGroup::work_system) ? CodeGroup::work_system : CodeGroup::without_effect);
     }
     return {};
 }

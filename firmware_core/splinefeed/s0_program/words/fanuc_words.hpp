@@ -51,9 +51,9 @@ private:
         CoordinateTurn turn{};
         PerAxis<Decimal> local{}; // G52
         std::int32_t further = 0; // number of the system of G54.1 and G154; 0: none
-        std::uint32_t unstated =
-            0; // bit k: a turn has changed what the place is on axis k, and no word has stated it since
-        std::uint32_t lost = 0; // the same, and the turn has ended
+        // Bit k: a turn has changed the place on axis k, and no word has stated it since; and the turn has ended.
+        std::uint32_t unstated = 0;
+        std::uint32_t lost = 0;
     };
     /// An origin that G10 writes.
     struct Origin {
@@ -61,6 +61,7 @@ private:
         std::int32_t number = 0; // 0: none is written
         WorkSystem value{};
     };
+
     BlockStatus wrong(const FanucBlock& in, FanucFault fault, char letter) noexcept;
     BlockStatus wrong(const FanucBlock& in, FanucFault fault, CodeGroup group) noexcept;
     BlockStatus read_words(const FanucBlock& in) noexcept;
@@ -74,6 +75,7 @@ private:
     BlockStatus begin_mirror(const FanucBlock& in) noexcept;
     BlockStatus check_motion(const FanucBlock& in) noexcept;
     void turned(const FanucBlock& in, bool ends) noexcept;
+    static void leave(const FanucBlock& in) noexcept;
     BlockStatus finish(const FanucBlock& in, CodeGroup group, std::uint32_t letters) noexcept;
 
     std::span<WorkSystem> further_;
