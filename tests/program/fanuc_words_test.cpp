@@ -281,11 +281,13 @@ TEST_CASE("a refused line leaves all as it was", "[program][fanuc_words]") {
 TEST_CASE("whoever looks for further errors goes on without the words that are refused", "[program][fanuc_words]") {
     FanucRun of;
     of.run.run("G0 X1 Y1");
+    const PerAxis<Position> place = of.run.interpreter().position();
     for (const char* const line :
-         {"G154 P100 X9", "G129.5 X9", "G10 L20 P0 X9", "G68 X9 R3", "G51 X9 P2", "G51.1 A9", "G91 G52 P1"}) {
+         {"G154 P100 X9", "G10 L20 P0 X9", "G68 X9 R3", "G51 X9 P2", "G51.1 A9", "G91 G52 P1"}) {
         CAPTURE(line);
         CHECK_FALSE(of.run.push(line).ok());
         of.run.interpreter().obey_refused();
+        CHECK(of.run.interpreter().position() == place);
         CHECK(of.moves("G90 X1 Y1") == "rapid 1 1 0");
         CHECK_FALSE(of.words.moves_program());
     }
