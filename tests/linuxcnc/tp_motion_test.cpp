@@ -70,7 +70,7 @@ TEST_CASE("whatever an operator does, and however late planning is, all limits a
             control.period();
         }
         starved = false;
-        control.input = {1.0, 1.0, 1e6, 0, control.input.abort, 0, 0};
+        control.input = {1.0, 1.0, 1e6, 0, control.input.abort, 0, 0, 0};
         control.until_over();
         CHECK(control.use() <= 1.0001);
         CHECK(control.figures().late == 0);

@@ -12,11 +12,11 @@ TEST_CASE("the motion follows override, slider and hold at once, while it probes
         double speed; // mm/s, where 50 are programmed, or as fast as the axis can
     };
     for (const Order& order :
-         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0, 0}, 80.0},
-          Order{false, {1.0, 1.0, 20.0, 0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0, 0}, 0.0},
-          Order{false, {1.0, 1.0, 1e6, 1, 0, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0, 0}, 0.0},
-          Order{true, {0.1, 0.5, 1e6, 0, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0, 0}, 30.0},
-          Order{true, {1.0, 1.0, 1e6, 1, 0, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0, 0}, 0.0}}) {
+         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0, 0, 0}, 80.0},
+          Order{false, {1.0, 1.0, 20.0, 0, 0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0, 0, 0}, 0.0},
+          Order{false, {1.0, 1.0, 1e6, 1, 0, 0, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, 0.0},
+          Order{true, {0.1, 0.5, 1e6, 0, 0, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0, 0, 0}, 30.0},
+          Order{true, {1.0, 1.0, 1e6, 1, 0, 0, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, 0.0}}) {
         for (const double jerk : {0.0, 30'000.0}) {
             double until_slower_s[2] = {};
             for (const bool probes : {false, true}) {
@@ -39,7 +39,7 @@ TEST_CASE("the motion follows override, slider and hold at once, while it probes
                 control.input = order.input;
                 run(250);
                 CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
-                control.input = {1.0, 1.0, 1e6, 0, 0, 0, 0};
+                control.input = {1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
                 control.until_over();
                 CHECK(control.out.position[0] == 80.0);
                 CHECK(control.use() <= 1.0001);
@@ -59,7 +59,7 @@ TEST_CASE("overrides are for moves of their kind, and the slider is not for rota
     tpc_move turn = line_to(80.0, 0.0, 100.0);
     turn.to[3] = 40.0; // degrees
     REQUIRE(control.add(turn) == 0);
-    control.input = {0.5, 0.25, 20.0, 0, 0, 0, 0};
+    control.input = {0.5, 0.25, 20.0, 0, 0, 0, 0, 0};
     double fastest[3] = {};
     double x = 0.0;
     double a = 0.0;
@@ -74,7 +74,7 @@ TEST_CASE("overrides are for moves of their kind, and the slider is not for rota
             control.input.max_feed = 1e6;
         }
         if (move == 1 && x > 60.0) {
-            control.input = {1.0, 1.0, 20.0, 0, 0, 0, 0};
+            control.input = {1.0, 1.0, 20.0, 0, 0, 0, 0, 0};
         }
     }
     CHECK(fastest[0] == Approx(25.0).epsilon(1e-3));
@@ -102,15 +102,15 @@ TEST_CASE("a feed that changes in every period is followed", "[linuxcnc]") {
 TEST_CASE("a feed that is on and off in turn, from period to period, moves the machine with its mean", "[linuxcnc]") {
     for (const double jerk : {0.0, 30'000.0}) {
         for (const double period_s : {0.001, 0.00025}) {
-            for (const auto& off : {tpc_input{0.0, 1.0, 1e6, 0, 0, 0, 0}, tpc_input{0.05, 1.0, 1e6, 0, 0, 0, 0},
-                                    tpc_input{1.0, 1.0, 0.0, 0, 0, 0, 0}, tpc_input{1.0, 1.0, 1e6, 1, 0, 0, 0}}) {
+            for (const auto& off : {tpc_input{0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, tpc_input{0.05, 1.0, 1e6, 0, 0, 0, 0, 0},
+                                    tpc_input{1.0, 1.0, 0.0, 0, 0, 0, 0, 0}, tpc_input{1.0, 1.0, 1e6, 1, 0, 0, 0, 0}}) {
                 for (const int half : {1, 3}) { // periods
                     Control control(machine_of(3, period_s, jerk));
                     REQUIRE(control.add(line_to(40.0, 0.0, 50.0)) == 0);
                     REQUIRE(control.add(line_to(40.0, 30.0, 50.0)) == 0);
                     int periods = 0;
                     while (control.out.first != control.out.last && periods * period_s < 5.0) {
-                        control.input = periods++ / half % 2 == 1 ? off : tpc_input{1.0, 1.0, 1e6, 0, 0, 0, 0};
+                        control.input = periods++ / half % 2 == 1 ? off : tpc_input{1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
                         control.period();
                     }
                     CAPTURE(jerk, period_s, off.ratio, off.max_feed, off.hold, half);
