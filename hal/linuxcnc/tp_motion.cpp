@@ -199,6 +199,7 @@ const char* TpMotion::begin_path() noexcept {
     const double segments = machine_.period_s * ticks_per_s / limits_.segment_ticks;
     per_period_ = larger(1U, static_cast<unsigned>(segments + 0.5));
     rules_ = path_rules(settings);
+    rules_.roundest = limits_.jerk_limited ? 1.0 : 2.0;
     const PerAxis<Position> start = position_from_mm(at_, machine_.axes);
     Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
     stream_.build(limits_, planner, rules_, &curve_);
