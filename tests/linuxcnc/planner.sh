@@ -17,7 +17,8 @@ bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --che
 bench --planner stock,module
 bench --planner stock,module --inch
 bench --planner module --period 250
-bench --planner stock,module --mode G64 --parameters tolerance_um=0
+bench --planner stock,module --mode G64
+bench --planner module --mode G64 --parameters tolerance_um=50
 /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_Z.MAX_VELOCITY=200000 --set AXIS_Z.MAX_ACCELERATION=20000000
 /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=0.05 \
     --refused "max_acceleration_mm_s2 must lie between 0.1 and 1000000"

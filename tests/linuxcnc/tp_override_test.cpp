@@ -99,6 +99,31 @@ TEST_CASE("a feed that changes in every period is followed", "[linuxcnc]") {
     }
 }
 
+TEST_CASE("noise of the feed in every period costs at most 1 %", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        for (const bool smooth : {false, true}) { // corners, or a curve that is travelled at the feed
+            std::size_t periods[2] = {};
+            for (const double noise : {0.0, 0.1}) {
+                Control control(machine_of(3, 0.001, jerk));
+                for (int i = 1; i <= (smooth ? 400 : 25); ++i) {
+                    const double a = 0.02 * i;
+                    REQUIRE(control.add(smooth ? line_to(30.0 * std::sin(a), 20.0 * std::sin(1.7 * a), 100.0)
+                                               : line_to(3.0 * i, 8.0 * (i % 2), 30.0)) == 0);
+                }
+                for (int n = 0; control.out.first != control.out.last && n < 100'000; ++n) {
+                    control.input.ratio = 0.9 + noise * (7919 * n % 201 - 100) / 100.0;
+                    control.period();
+                }
+                REQUIRE(control.out.first == control.out.last);
+                CHECK(control.use() <= 1.0001);
+                periods[noise > 0.0 ? 1 : 0] = control.places.size();
+            }
+            CAPTURE(jerk, smooth, periods[0]);
+            CHECK(static_cast<double>(periods[1]) < 1.01 * static_cast<double>(periods[0]));
+        }
+    }
+}
+
 TEST_CASE("a feed that is on and off in turn, from period to period, moves the machine with its mean", "[linuxcnc]") {
     for (const double jerk : {0.0, 30'000.0}) {
         for (const double period_s : {0.001, 0.00025}) {
