@@ -143,7 +143,7 @@ void KeptCurve::lead(CurveSegment<double>& out) noexcept {
     for (const unsigned k : indices(out.axes)) {
         PerDegree<double>& points = out.control[k];
         cut(points, n, cut_, backward_);
-        const double at = distance<double>(out.origin[k], at_[k], out.unit_log2);
+        const auto at = distance<double>(out.origin[k], at_[k], out.unit_log2);
         for (unsigned i = 0; i <= n; ++i) {
             offsets[k][i] = scale2(points[i] - at, out.unit_log2 - chord_unit_log2);
         }
