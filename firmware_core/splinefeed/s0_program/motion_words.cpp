@@ -295,6 +295,15 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     if (const BlockStatus status = check_reach(frame_.to_machine(bottom)); !status.ok()) {
         return status;
     }
+    AxisPoint around = bottom; // a square about the holes that lie about X0 Y0, on its tip: turned it has them, too
+    for (int corner = 0; corner < 4 && cycle.radius().raw > 0; ++corner) {
+        const Decimal far{(corner < 2 ? 2 : -2) * cycle.radius().raw};
+        around[letters_.place('x')] = corner % 2 == 0 ? far : Decimal{};
+        around[letters_.place('y')] = corner % 2 == 0 ? Decimal{} : far;
+        if (const BlockStatus status = check_reach(frame_.to_machine(around)); !status.ok()) {
+            return status;
+        }
+    }
     return move_to({end, frame_.to_machine(end)});
 }
 

@@ -32,7 +32,7 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     } else if (motion == 760) {
         used |= Block::bits("ehijklpqr");
     } else if (is_cycle(motion)) {
-        used |= Block::bits("lr");
+        used |= Block::bits("lr@^");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
         const bool dwells = motion == 820 || motion == 860 || motion == 890 || taps(motion);
         used |= dwells || rules.idle_cycles ? Block::bits("p") : 0;
