@@ -237,6 +237,9 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     if (!status.ok()) {
         return status;
     }
+    if (settings_.extension != nullptr && !settings_.extension->turn_arc(arc.radius, arc.sweep_deg)) {
+        return block_.at(ProgramError::arc_radius_zero, CodeGroup::motion);
+    }
     if (arc.is_flat && !block_.has_any(Block::bits("abcuvwe"))) {
         plan_parabola(i, j, arc, end);
         return move_to(end);

@@ -21,6 +21,7 @@
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <optional>
 #include <thread>
@@ -37,14 +38,14 @@ public:
         : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
           tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                                 : std::nullopt),
-          items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
+          items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr, fanuc_), expression_,
                                settings.max_feed_mm_s)),
           interpreter_(items_->interpreter()),
           flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings, coolant_)) {}
 
     bool start(PerAxis<Position>& position) override {
         position = settings_->start;
-        variables_.follow(interpreter_);
+        variables_.follow(interpreter_, &fanuc_);
         if (settings_->left_out != nullptr) {
             settings_->left_out->begin();
         }
@@ -202,8 +203,10 @@ private:
     void report_block(const BlockStatus& status, std::string_view text) {
         const std::string_view rest =
             text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
-        const std::string sentence =
-            cut_ == Cut::read ? std::string(cut_line) : refusal_sentence(rest, status.error, *settings_);
+        const std::string sentence = cut_ == Cut::read ? std::string(cut_line)
+                                     : status.error == ProgramError::coordinates_unsuited
+                                         ? std::string(describe(fanuc_.fault()))
+                                         : refusal_sentence(rest, status.error, *settings_);
         const bool says_dialect = sentence.find("--dialect") != std::string::npos;
         const std::string place = in_the_line(status);
         // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
@@ -365,6 +368,8 @@ private:
     ParameterMemory parameters_;
     MacroVariables variables_{parameters_, settings_->axes};
     Expression expression_{variables_};
+    std::array<WorkSystem, 99> further_{}; // of G54.1 and G154
+    FanucWords fanuc_{further_};
     std::unique_ptr<ProgramItems> items_;
     BlockInterpreter& interpreter_; // theirs
     CoolantState coolant_;

@@ -49,6 +49,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::user_code_unsupported, "there are no user codes M100 to M199"},
     {ProgramError::pocket_unsupported, "circular pockets are not supported"},
     {ProgramError::coordinates_unsupported, "turned, scaled and further coordinates are not supported"},
+    {ProgramError::coordinates_unsuited, "words of coordinates do not go together like this"},
     {ProgramError::macro_unsupported, "calls of macros and jumps are not supported"},
     {ProgramError::printer_flow_unsupported, "loops, macros and other files are not supported"},
     {ProgramError::ignored_word_counts, "it is never left out"},

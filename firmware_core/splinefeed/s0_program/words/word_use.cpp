@@ -107,7 +107,8 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
         std::int32_t what = 0;
         std::int32_t system = 0;
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
-            !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
+            !to_integer(block.value('p'), system) || system < (rules.macros ? 1 : 0) || system > 9 ||
+            (what == 20 && (block.has('r') || rules.macros))) { // Fanuc's are of an extension
             return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);
         }
     }
