@@ -285,7 +285,9 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
         block_.keep(~Block::letter_bit('l'));
     }
     CannedCycle& cycle = series_.emplace<CannedCycle>();
-    if (const BlockStatus status = cycle.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
+    if (const BlockStatus status =
+            cycle.begin(block_, modal_, before, letters_, at, rules().cycles_apart, cycle_words_);
+        !status.ok()) {
         return status;
     }
     if (idle) {

@@ -110,11 +110,15 @@ private:
 
     [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
     [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
+    [[nodiscard]] bool is_deleted(std::string_view text) const noexcept {
+        return rules_.block_delete && TextCursor(text).peek() == '/';
+    }
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return has_flow_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
+        return (has_flow_word(text) && !is_deleted(text)) || has_statement(text) ||
+               read_flow_code(text, rules_).has_value();
     }
     [[nodiscard]] bool has_statement(std::string_view text) const noexcept {
-        return rules_.macros && has_macro_word(text) && !(rules_.block_delete && TextCursor(text).peek() == '/');
+        return rules_.macros && has_macro_word(text) && !is_deleted(text);
     }
     Step take_word(SourceLine& line, const std::optional<FlowWord>& known);
     Step collect(const SourceLine& line, const std::optional<FlowWord>& known);

@@ -193,7 +193,9 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_file(const std::string& label
 std::shared_ptr<const FlowBlock> ProgramFlow::find_in(const Lines& lines, std::size_t begin, const std::string& label) {
     for (std::size_t i = begin; i < lines.size(); ++i) {
         std::size_t wrong = 0;
-        const auto word = has_flow_word(lines[i].text) ? read_flow_word(lines[i].text, wrong) : std::nullopt;
+        const auto word = has_flow_word(lines[i].text) && !is_deleted(lines[i].text)
+                              ? read_flow_word(lines[i].text, wrong)
+                              : std::nullopt;
         if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
             continue;
         }
@@ -239,7 +241,7 @@ std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const Flo
             return i;
         }
         std::size_t wrong = 0;
-        const auto word = has_flow_word(text) ? read_flow_word(text, wrong) : std::nullopt;
+        const auto word = has_flow_word(text) && !is_deleted(text) ? read_flow_word(text, wrong) : std::nullopt;
         if (word && word->kind == FlowKind::program && first.kind == FlowKind::program) {
             return i;
         }

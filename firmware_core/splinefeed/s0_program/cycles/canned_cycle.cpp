@@ -17,12 +17,12 @@ constexpr std::int64_t whole_turn = 360 * Decimal::one; // [degrees]
 } // namespace
 
 // The words of the block, or those that are still in effect.
-BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
+BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, bool placed, char normal,
                                     CycleWords& words) noexcept {
-    if (fresh && !block.has(normal)) {
+    if (!placed && !block.has(normal)) {
         return block.at(ProgramError::cycle_depth_missing, CodeGroup::motion);
     }
-    if (fresh && !block.has('r')) {
+    if (!placed && !block.has('r')) {
         return block.at(ProgramError::cycle_radius_missing, CodeGroup::motion);
     }
     if (dwells() && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
@@ -57,7 +57,8 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
 }
 
 BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, const ModalState& before,
-                               const AxisLetters& letters, const AxisPoint& at, CycleWords& words) noexcept {
+                               const AxisLetters& letters, const AxisPoint& at, bool series,
+                               CycleWords& words) noexcept {
     const PlaneLetters plane = letters_of(modal.plane);
     const char normal = plane.axes[2];
     for (unsigned k = 0; k < 3; ++k) {
@@ -68,7 +69,8 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     }
     code_ = modal.motion;
     const bool fresh = before.motion != code_ || words.motion != code_; // a refused cycle has the mode, but no words
-    if (const BlockStatus status = read_words(block, modal, fresh, normal, words); !status.ok()) {
+    const bool placed = !fresh || (series && words.begun);
+    if (const BlockStatus status = read_words(block, modal, fresh, placed, normal, words); !status.ok()) {
         return status;
     }
     const auto n = static_cast<unsigned>(axes_[2]);

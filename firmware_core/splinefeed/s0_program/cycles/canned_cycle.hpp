@@ -37,9 +37,10 @@ struct CycleWords {
 class CannedCycle {
 public:
     /// From the words of a block. @param at  where the machine stands, in program coordinates
+    /// @param series  Z and R stay in effect from one cycle to another one, until something else ends the series
     /// Errors: the ProgramError::cycle_... of a missing or impossible word.
     BlockStatus begin(const Block& block, const ModalState& modal, const ModalState& before, const AxisLetters& letters,
-                      const AxisPoint& at, CycleWords& words) noexcept;
+                      const AxisPoint& at, bool series, CycleWords& words) noexcept;
     /// The next step; a move ends at `at`.
     CycleStep next(AxisPoint& at) noexcept;
     /// Where it ends.
@@ -53,7 +54,7 @@ public:
 private:
     enum class Phase : std::uint8_t { lift, across, to_clearance, hole, retract, restart, finished };
 
-    BlockStatus read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
+    BlockStatus read_words(const Block& block, const ModalState& modal, bool fresh, bool placed, char normal,
                            CycleWords& words) noexcept;
     /// In the hole, by a P that it needs.
     [[nodiscard]] bool dwells() const noexcept { return code_ == 820 || code_ == 860 || code_ == 890; }
