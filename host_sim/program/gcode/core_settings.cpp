@@ -53,7 +53,9 @@ FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant)
             settings.increments,
             settings.left_out,
             &coolant,
-            settings.axes};
+            settings.axes,
+            settings.runs,
+            settings.subprogram_folders};
 }
 
 } // namespace splinefeed::host

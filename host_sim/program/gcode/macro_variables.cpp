@@ -10,6 +10,8 @@ namespace {
 constexpr std::int32_t program_positions = 5420; // of SystemParameters
 constexpr std::int32_t origins = 5221;           // of G54, and every 20 numbers of the next one
 constexpr std::int32_t behind_origins = 5390;
+constexpr std::int32_t tools = 5400; // of LinuxCNC; of Haas' controls the times of tools, of others none
+constexpr std::int32_t last_place = 5428;
 
 Decimal whole(std::int32_t value) noexcept {
     return Decimal::from_integer(value);
@@ -88,7 +90,7 @@ bool MacroVariables::write(std::int32_t number, Decimal value) noexcept {
 bool MacroVariables::refuses(std::int32_t number, ParameterAccess access, bool owned) const noexcept {
     if (owned) {
         const std::int32_t index = (number - origins) % 20;
-        return (number == origins - 1 && is_further()) ||
+        return (number >= tools && number <= last_place) || (number == origins - 1 && is_further()) ||
                (number >= origins && number < behind_origins && index < 9 && !has_axis(index));
     }
     if (number < first_of_control) {

@@ -88,6 +88,11 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         kind = LineKind::left_out;
         return {};
     }
+    if (rules_->skips_unknown && cursor.peek() == 'p') { // P0 of a changer of tools: to the others it is unknown
+        note(text.substr(cursor.at(), 2));
+        kind = LineKind::left_out;
+        return {};
+    }
     const ProgramStatus status = read_words(cursor, control, out);
     if (!status.ok()) {
         read_rest(cursor, control, out);
@@ -118,14 +123,15 @@ ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& 
             return status;
         }
         const std::int16_t printer = out.code(CodeGroup::printer);
-        const bool pauses = rules_->one_command && out.has(CodeGroup::stop); // M0 S5 Click to go on
+        const bool pauses = rules_->one_command && out.has(CodeGroup::stop);          // M0 S5 Click to go on
+        const bool selects = rules_->one_command && out.has('t') && !out.has_codes(); // T0 S1 L0 D0 M1
         if (printer == 117) {
             out.set_comment(CommentKind::none, TextCursor::place(text.at(), text.find(';', text.at())));
             return {};
         }
-        if (printer != Block::no_code || left_out_.command || pauses) {
+        if (printer != Block::no_code || left_out_.command || pauses || selects) {
             read_free_words(text, out);
-            out.keep(pauses ? Block::bits("s") : ~0U);
+            out.keep(pauses ? Block::bits("s") : selects ? ~Block::bits("dlms") : ~0U);
         }
     }
     return {};
