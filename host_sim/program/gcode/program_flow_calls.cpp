@@ -154,9 +154,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_sub(const std::string& label)
 std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& label) {
     for (std::size_t i = ahead_at_; i < ahead_.size(); ++i) {
         std::size_t wrong = 0;
-        const auto word = has_flow_word(ahead_[i].text) && !is_deleted(ahead_[i].text)
-                              ? read_flow_word(ahead_[i].text, wrong)
-                              : std::nullopt;
+        const auto word = has_o_word(ahead_[i].text) ? read_flow_word(ahead_[i].text, wrong) : std::nullopt;
         if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
             continue;
         }
@@ -200,7 +198,7 @@ std::size_t ProgramFlow::end_ahead(std::size_t begin, const FlowWord& first) con
             return i;
         }
         std::size_t wrong = 0;
-        const auto word = has_flow_word(text) && !is_deleted(text) ? read_flow_word(text, wrong) : std::nullopt;
+        const auto word = has_o_word(text) ? read_flow_word(text, wrong) : std::nullopt;
         if (word && word->kind == FlowKind::program && first.kind == FlowKind::program) {
             return i;
         }
