@@ -65,7 +65,7 @@ void skip_value(TextCursor& text) noexcept {
 }
 
 std::string program_label(std::string_view number) {
-    return std::string("O").append(number); // the others are in lower case
+    return std::string("O").append(number);
 }
 
 bool has_flow_word(std::string_view text) noexcept {

@@ -145,12 +145,18 @@ struct CodeRows {
         Row{401, 401, without_effect, ProgramError::none, in_fanuc},
         Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
+        Row{510, 511, extension, ProgramError::none, in_fanuc},
+        Row{520, 520, extension, ProgramError::none, in_fanuc},
+        Row{541, 541, extension, ProgramError::none, in_fanuc},
         Row{650, 650, stop, ProgramError::none, in_fanuc, order}, // a call, as M98 is
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
+        Row{680, 680, extension, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
         Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},
         Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
         Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported, in_fanuc},
+        Row{1100, 1290, extension, ProgramError::none, in_fanuc},
+        Row{1540, 1540, extension, ProgramError::none, in_fanuc},
     };
 
     static constexpr Row m_extras[] = {

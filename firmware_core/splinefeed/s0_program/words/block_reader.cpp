@@ -4,6 +4,7 @@
 #include "splinefeed/s0_program/words/line_checksum.hpp"
 #include "splinefeed/s0_program/words/modal_state.hpp"
 #include "splinefeed/s0_program/words/program_comment.hpp"
+#include "splinefeed/s0_program/words/word_extension.hpp"
 
 #include <algorithm>
 
@@ -320,6 +321,11 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
     constexpr std::int32_t none = 30000;
     code = is_number ? code : none;
     CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    if (is_g && settings_->extension != nullptr) {
+        settings_->extension->take(code, out, info);
+    } else if (info.group == CodeGroup::extension) {
+        info.refusal = ProgramError::coordinates_unsupported;
+    }
     if (info.group == CodeGroup::none) {
         info.refusal = is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown;
     }

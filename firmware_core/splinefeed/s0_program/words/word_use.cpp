@@ -32,7 +32,7 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     } else if (motion == 760) {
         used |= Block::bits("ehijklpqr");
     } else if (is_cycle(motion)) {
-        used |= Block::bits("lr");
+        used |= Block::bits("lr@^");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
         const bool dwells = motion == 820 || motion == 860 || motion == 890 || taps(motion);
         used |= dwells || rules.idle_cycles ? Block::bits("p") : 0;
@@ -109,7 +109,8 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
         std::int32_t what = 0;
         std::int32_t system = 0;
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
-            !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
+            !to_integer(block.value('p'), system) || system < (rules.macros ? 1 : 0) || system > 9 ||
+            (what == 20 && (block.has('r') || rules.macros))) { // Fanuc's are of an extension
             return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);
         }
     }
