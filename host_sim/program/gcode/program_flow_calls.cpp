@@ -232,7 +232,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_of(const Lines& lines, std::
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
-std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const FlowWord& first) {
+std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const {
     for (std::size_t i = begin + 1; i < lines.size(); ++i) {
         const std::string& text = lines[i].text;
         if (first.kind == FlowKind::program && TextCursor(text).peek() == '%') {
