@@ -193,6 +193,7 @@ private:
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_in(const Lines& lines, std::size_t begin,
                                                            const std::string& label);
     [[nodiscard]] std::shared_ptr<const FlowBlock> block_of(const Lines& lines, std::size_t begin, std::size_t end);
+    [[nodiscard]] std::optional<FlowWord> o_word(const std::string& text) const;
     [[nodiscard]] std::size_t end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const;
     bool wait_for_input(const FlowWord& word, const SourceLine& line);
     Step read_ahead(SourceLine& out);
