@@ -113,9 +113,12 @@ private:
     [[nodiscard]] bool is_deleted(std::string_view text) const noexcept {
         return rules_.block_delete && TextCursor(text).peek() == '/';
     }
+    /// :1000 is a number of a program where macros are Fanuc's.
+    [[nodiscard]] bool has_o_word(std::string_view text) const noexcept {
+        return (has_flow_word(text) || (rules_.macros && is_program_number(text))) && !is_deleted(text);
+    }
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return (has_flow_word(text) && !is_deleted(text)) || has_statement(text) ||
-               read_flow_code(text, rules_).has_value();
+        return has_o_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
     }
     [[nodiscard]] bool has_statement(std::string_view text) const noexcept {
         return rules_.macros && has_macro_word(text) && !is_deleted(text);

@@ -191,7 +191,7 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_file(const std::string& label
 
 std::optional<FlowWord> ProgramFlow::o_word(const std::string& text) const {
     std::size_t wrong = 0;
-    return has_flow_word(text) && !is_deleted(text) ? read_flow_word(text, wrong) : std::nullopt;
+    return has_o_word(text) ? read_flow_word(text, wrong) : std::nullopt;
 }
 
 // From a line on. Null: it is not there, or what is wrong with it has been told.
