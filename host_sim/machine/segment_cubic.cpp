@@ -66,6 +66,9 @@ SegmentCubic::SegmentCubic(const FeedSegment& segment, unsigned axis, double uni
 }
 
 std::int64_t SegmentCubic::travelled(int j, int n) const noexcept {
+    if (j == 0 || j == n) {
+        return j == 0 ? 0 : static_cast<std::int64_t>(a1_ + a2_ + a3_);
+    }
     const std::int64_t square = std::int64_t{n} * n;
     return nearest_quotient(((a3_ * j + a2_ * n) * j + a1_ * square) * j, square * n);
 }

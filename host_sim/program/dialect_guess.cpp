@@ -181,7 +181,8 @@ void DialectGuess::read_words(std::string_view code, std::string_view macro, std
         return;
     }
     // A number of the program, and nothing else, is Fanuc's; LinuxCNC takes it, too.
-    const bool numbered = text.size() > 1 && text[0] == 'o' && std::all_of(text.begin() + 1, text.end(), is_figure);
+    const bool numbered =
+        text.size() > 1 && (text[0] == 'o' || text[0] == ':') && std::all_of(text.begin() + 1, text.end(), is_figure);
     if (numbered) {
         count(Dialect::fanuc, percent_ ? 5 : 3, code, line);
     } else if (text[0] == 'o' || text.find("#<") != std::string::npos) {
@@ -230,7 +231,8 @@ void DialectGuess::read_motion(std::string_view code, std::string_view plain, st
         motion_ = Motion::stated;
     }
     const bool is_arc = std::ranges::any_of(numbers, [](int g) { return g == 2 || g == 3; });
-    if (is_arc && std::ranges::all_of(std::string_view("ijk"), [&](char c) { return plain.find(c) != plain.npos; })) {
+    if (is_arc &&
+        std::ranges::all_of(std::string_view("ijk"), [&](char c) { return plain.find(c) != std::string_view::npos; })) {
         count_if_free(Dialect::grbl, code, line);
     }
 }

@@ -40,6 +40,7 @@ TEST_CASE("Words that one controller alone has decide") {
     CHECK(guess("%\nO1000\nG28 U0 W0").dialect() == Dialect::fanuc);
     CHECK(guess("%\nO1000 (NAME)\nG4 P2").dialect() == Dialect::fanuc);
     CHECK(guess("O1000\nG154 P2 X0").dialect() == Dialect::fanuc);
+    CHECK(guess("%\n:0097\nG0 X5").dialect() == Dialect::fanuc);
     CHECK(guess("IF [#1 EQ #0] GOTO 10\n#2 = #1").dialect() == Dialect::fanuc);
     CHECK(guess("T0101\nG0 X5").dialect() == Dialect::fanuc);
     CHECK(guess("G28 X Y\nG1 X5").dialect() == Dialect::marlin);

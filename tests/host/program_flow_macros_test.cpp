@@ -222,3 +222,8 @@ TEST_CASE("A / before an O word leaves its line out, or says nothing") {
     CHECK(run(program) == " 1 2 3 4 5");
     CHECK(run(program, nullptr, {.block_delete = true}) == " 1 2 3 4");
 }
+
+TEST_CASE("A colon before the number of a program is an O") {
+    CHECK(run(":1\nG0 X1\nM98 P20\nX5\nM30\n:0020\nX2\nM99\n:30\nX9\nM99") == " 1 2 5");
+    CHECK(run("G0 X1\n:20 X5").find("line 2") != std::string::npos);
+}

@@ -77,7 +77,7 @@ bool has_flow_word(std::string_view text) noexcept {
 bool is_program_number(std::string_view text) noexcept {
     TextCursor cursor(text);
     skip_block_number(cursor);
-    if (!cursor.take('o') || !is_digit(cursor.peek())) {
+    if (!(cursor.take('o') || cursor.take(':')) || !is_digit(cursor.peek())) {
         return false;
     }
     skip_number(cursor);

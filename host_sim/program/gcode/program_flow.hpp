@@ -113,9 +113,12 @@ private:
     [[nodiscard]] bool is_deleted(std::string_view text) const noexcept {
         return rules_.block_delete && TextCursor(text).peek() == '/';
     }
+    /// :1000 is a number of a program where macros are Fanuc's.
+    [[nodiscard]] bool has_o_word(std::string_view text) const noexcept {
+        return (has_flow_word(text) || (rules_.macros && is_program_number(text))) && !is_deleted(text);
+    }
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return (has_flow_word(text) && !is_deleted(text)) || has_statement(text) ||
-               read_flow_code(text, rules_).has_value();
+        return has_o_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
     }
     [[nodiscard]] bool has_statement(std::string_view text) const noexcept {
         return rules_.macros && has_macro_word(text) && !is_deleted(text);
@@ -190,7 +193,8 @@ private:
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_in(const Lines& lines, std::size_t begin,
                                                            const std::string& label);
     [[nodiscard]] std::shared_ptr<const FlowBlock> block_of(const Lines& lines, std::size_t begin, std::size_t end);
-    [[nodiscard]] static std::size_t end_in(const Lines& lines, std::size_t begin, const FlowWord& first);
+    [[nodiscard]] std::optional<FlowWord> o_word(const std::string& text) const;
+    [[nodiscard]] std::size_t end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const;
     bool wait_for_input(const FlowWord& word, const SourceLine& line);
     Step read_ahead(SourceLine& out);
     [[nodiscard]] Step give_others(const FlowWord& word, SourceLine& out);

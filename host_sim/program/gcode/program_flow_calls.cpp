@@ -189,13 +189,15 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_file(const std::string& label
     return code;
 }
 
+std::optional<FlowWord> ProgramFlow::o_word(const std::string& text) const {
+    std::size_t wrong = 0;
+    return has_o_word(text) ? read_flow_word(text, wrong) : std::nullopt;
+}
+
 // From a line on. Null: it is not there, or what is wrong with it has been told.
 std::shared_ptr<const FlowBlock> ProgramFlow::find_in(const Lines& lines, std::size_t begin, const std::string& label) {
     for (std::size_t i = begin; i < lines.size(); ++i) {
-        std::size_t wrong = 0;
-        const auto word = has_flow_word(lines[i].text) && !is_deleted(lines[i].text)
-                              ? read_flow_word(lines[i].text, wrong)
-                              : std::nullopt;
+        const auto word = o_word(lines[i].text);
         if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
             continue;
         }
@@ -234,14 +236,13 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_of(const Lines& lines, std::
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
-std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const FlowWord& first) {
+std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const {
     for (std::size_t i = begin + 1; i < lines.size(); ++i) {
         const std::string& text = lines[i].text;
         if (first.kind == FlowKind::program && TextCursor(text).peek() == '%') {
             return i;
         }
-        std::size_t wrong = 0;
-        const auto word = has_flow_word(text) && !is_deleted(text) ? read_flow_word(text, wrong) : std::nullopt;
+        const auto word = o_word(text);
         if (word && word->kind == FlowKind::program && first.kind == FlowKind::program) {
             return i;
         }
