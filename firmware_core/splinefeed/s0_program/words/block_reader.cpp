@@ -67,9 +67,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     kind = LineKind::block;
     left_out_ = {};
     has_command_ = false;
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
-        text.remove_suffix(1);
-    }
+    text = text.substr(0, text.find_last_not_of("\n\r"sv) + 1);
     if (text.size() > longest_line) {
         return {ProgramError::line_too_long, 0, longest_line + 1};
     }
@@ -88,7 +86,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         kind = LineKind::left_out;
         return {};
     }
-    if (rules_->skips_unknown && cursor.peek() == 'p') { // P0 of a changer of tools: to the others it is unknown
+    if (rules_->skips_unknown && cursor.peek() == 'p') { // P0 of a changer: to the others it is unknown
         note(text.substr(cursor.at(), 2));
         kind = LineKind::left_out;
         return {};
@@ -369,13 +367,9 @@ BlockReader::Ignored BlockReader::find_ignored(char letter, Decimal value) const
     Ignored out = Ignored::no;
     for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
         const IgnoredWord& word = settings_->ignored[i];
-        if (word.letter != letter) {
-            continue;
-        }
-        if (word.tenths == IgnoredWord::any) {
-            out = out == Ignored::no ? Ignored::by_letter : out;
-        } else if (value.raw == word.tenths * (Decimal::one / 10)) {
-            out = Ignored::by_name;
+        const bool is_any = word.tenths == IgnoredWord::any;
+        if (word.letter == letter && (is_any || value.raw == word.tenths * (Decimal::one / 10))) {
+            out = std::max(out, is_any ? Ignored::by_letter : Ignored::by_name);
         }
     }
     return out;
