@@ -67,7 +67,9 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     kind = LineKind::block;
     left_out_ = {};
     has_command_ = false;
-    text = text.substr(0, text.find_last_not_of("\n\r"sv) + 1);
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.remove_suffix(1);
+    }
     if (text.size() > longest_line) {
         return {ProgramError::line_too_long, 0, longest_line + 1};
     }
@@ -87,7 +89,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         return {};
     }
     if (rules_->skips_unknown && cursor.peek() == 'p') { // P0 of a changer: to the others it is unknown
-        note(text.substr(cursor.at(), 2));
+        note(cursor.part(cursor.at(), std::min(cursor.at() + 2, text.size())));
         kind = LineKind::left_out;
         return {};
     }
