@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether every relative link and #anchor of the Markdown pages resolves, every `docs/...` that any file names exists, a page
+"""Whether every relative link and #anchor of the Markdown pages resolves, no page has a mark like @TIME@ left, every `docs/...` that any file names exists, a page
 links to each page, and the program has the messages that docs/troubleshooting.md explains."""
 import pathlib
 import re
@@ -24,9 +24,11 @@ def anchors_of(text):
 
 
 def bad_links(page):
-    """Links of a page that lead nowhere, each with its line."""
+    """Links of a page that lead nowhere, and marks that no figure has replaced, each with its line."""
     text = (ROOT / page).read_text()
     prose = re.sub(r"`[^`\n]*`", lambda m: " " * len(m[0]), FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text))
+    for mark in re.finditer(r"@[A-Z]+@", prose):
+        yield f"{page}:{text.count(chr(10), 0, mark.start()) + 1}: {mark[0]}: nothing stands for this mark"
     for link in LINK.finditer(prose):
         if re.match(r"[a-z]+:", link[1]):
             continue
