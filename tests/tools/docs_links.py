@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether every relative link and #anchor of the Markdown pages resolves, no page has a mark like @TIME@ left, every `docs/...` that any file names exists, a page
-links to each page, and the program has the messages that docs/troubleshooting.md explains."""
+"""Whether every relative link and #anchor of the Markdown pages resolves, no page has a mark like @TIME@ left, every `docs/...`
+that any file names exists, a page links to each page, and the program has the messages that docs/troubleshooting.md explains."""
 import pathlib
 import re
 import subprocess
