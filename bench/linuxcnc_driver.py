@@ -4,7 +4,7 @@
 actions says, records every servo period, and writes the samples and HAL's figures.
 
   job.json   {"actions": [[SECONDS, WHAT, VALUE], ...], "timeout_s": S, "figures": [names of HAL's pins and parameters]}
-  WHAT       hold, resume, step, override, rapid, limit (mm/s), adaptive, abort, mdi (words)
+  WHAT       hold, resume, step, reverse, forward, override, rapid, limit (mm/s), adaptive, abort, mdi (words)
 """
 import array
 import json
@@ -70,6 +70,10 @@ def act(what, value):
         command.auto(linuxcnc.AUTO_RESUME)
     elif what == "step":
         command.auto(linuxcnc.AUTO_STEP)
+    elif what == "reverse":
+        command.auto(linuxcnc.AUTO_REVERSE)
+    elif what == "forward":
+        command.auto(linuxcnc.AUTO_FORWARD)
     elif what == "override":
         command.feedrate(value)
     elif what == "rapid":

@@ -52,7 +52,7 @@ std::vector<double> run(const tpc_machine& machine, bool corners) {
     tpc_set(zero);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> any(-1.0, 1.0);
-    const tpc_input input{1.0, 1.0, 1e6, 0, 0, 0, 0};
+    const tpc_input input{1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
     tpc_output output{};
     std::vector<double> us;
     double angle = 0.0;

@@ -53,6 +53,27 @@ def step_problem(samples, axes):
     return ("" if len(stands) == 5 else f" it stood {len(stands)} times") + "".join(f" a step ends at {place}" for place in stands[1:][off])
 
 
+def back_problem(samples, axes, said):
+    """What is wrong with a run that goes back to where it began, and how far the way back is from the way there, in um."""
+    import numpy
+
+    q = samples[:, : len(axes)]
+    away = numpy.linalg.norm(q - q[0], axis=1)
+    left = numpy.flatnonzero(away > 1.0)
+    came = left[0] + numpy.flatnonzero(away[left[0] :] < 1e-6) if len(left) else []
+    if len(came) == 0:
+        return " it did not come back to where it began", 0.0
+    step = numpy.abs(numpy.diff(q[left[0] : came[0]], axis=0)).max(axis=1)
+    turn = left[0] + int(step.argmin())
+    a, b = q[:turn], q[1 : turn + 1]
+    way, worst = b - a, 0.0
+    for place in q[turn : came[0] + 1 : 7]:
+        along = numpy.clip(((place - a) * way).sum(axis=1) / numpy.maximum((way**2).sum(axis=1), 1e-30), 0.0, 1.0)
+        worst = max(worst, numpy.linalg.norm(a + along[:, None] * way - place, axis=1).min())
+    problem = "" if worst < 0.001 else f" the way back is {1e3 * worst:.1f} um from the way there"
+    return problem + ("" if said == ["splinefeed_tp: the way back ends here"] else f" it says {said}"), 1e3 * worst
+
+
 def standing(samples, axes, period_us):
     """Time without motion between the first and the last motion, and the lines that begin behind it."""
     import numpy

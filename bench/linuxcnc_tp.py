@@ -5,7 +5,7 @@
   bench/linuxcnc_tp.py PROGRAM... [--module build/linuxcnc/linuxcnc/splinefeed_tp.so] [--planner stock,module] [--mode "G64 P0.01 Q0"]
       [--jerk 30000] [--period 1000] [--parameters "ahead=16"] [--steer SEED] [--starve 10] [--judge CHECK_PATH.PY] [--canon CANON.PY]
       [--tool build/tool/bin/splinefeed] [--stops] [--keep FOLDER] [--hal FILE] [--set SECTION.KEY=VALUE]... [--inch] [--check]
-      [--linuxcnc TREE] [--step]
+      [--linuxcnc TREE] [--step] [--back]
 
 Each axis has 100 mm/s and 1000 mm/s^2. LinuxCNC runs in name spaces of its own and needs no rights; each servo period is recorded as
 double. Printed: cycle time, largest use of a limit in first, second and third differences of what was commanded, and of the module what
@@ -15,7 +15,8 @@ a hundred periods planning gets no time. --judge and --canon measure the distanc
 without motion, too, and what the tool takes with a stop where the machine stood: what is left is lost by the planner. --hal: more lines for
 HAL. --set: a line of the INI file. --inch: the machine's unit is the inch. --refused: what LinuxCNC has to say, without motion and without
 output 0. --indexer: A is a locking rotary axis, which takes 0.15 s to unlock or lock. Nothing else moves while it is unlocked, and it not
-while it is locked. --step: pauses the program, which has whole millimetres, steps four times, and looks where. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion. --linuxcnc: a source tree
+while it is locked. --step: pauses the program, which has whole millimetres, steps four times, and looks where. --back: an adaptive feed of -1 from 1.5 s
+on, until it has come to where it began, and then of 1. How far it is from the way there is printed as its path. --check fails where a limit is exceeded by 1e-4, an end is missed, or a period had no motion. --linuxcnc: a source tree
 of LinuxCNC, built to run in place, else what is installed.
 """
 import argparse
@@ -29,7 +30,7 @@ import subprocess
 import sys
 import tempfile
 
-from linuxcnc_samples import ACCELERATION, OTHERS, VELOCITY, controller_us, indexer_problem, limits_used, standing, step_problem
+from linuxcnc_samples import ACCELERATION, OTHERS, VELOCITY, back_problem, controller_us, indexer_problem, limits_used, standing, step_problem
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:] = [p for p in sys.path if pathlib.Path(p or ".").resolve() != HERE]  # its gcode.py is not LinuxCNC's gcode
@@ -276,6 +277,7 @@ def main():
     parser.add_argument("--stops", action="store_true")
     parser.add_argument("--indexer", action="store_true")
     parser.add_argument("--step", action="store_true")
+    parser.add_argument("--back", action="store_true")
     parser.add_argument("--check", action="store_true")
     options = parsed(parser, 300)
     if options is None:
@@ -296,7 +298,9 @@ def main():
             actions = load(HERE / "linuxcnc_actions.py").random_actions(options.steer + seed, tool_s or 8.0) if steers else []
             if options.step:
                 actions = [[t, "step" if t > 0.5 else "hold", 0] for t in (0.5, 1.5, 3.0, 4.5, 6.0)] + [[7.5, "resume", 0]]
-            sent = begun_with("M52 P1", text) if steers else text
+            if options.back:
+                actions = [[1.5, "adaptive", -1.0], [4.5, "adaptive", 1.0]]
+            sent = begun_with("M52 P1", text) if steers or options.back else text
             result = run(sent, axes, options, options.module.resolve() if ours else None, parameters, actions)
             row = [program.name, planner]
             problem = "; ".join(dict.fromkeys([result["problem"]] * bool(result["problem"]) + result["said"]))
@@ -330,6 +334,9 @@ def main():
                     problem += indexer_problem(result["samples"], axes)
                 if options.step:
                     problem += step_problem(result["samples"], axes)
+                if options.back:
+                    wrong, path_um = back_problem(result["samples"], axes, result["said"])
+                    problem, row[4] = result["problem"] + wrong, f"{path_um:.1f}"
                 if options.refused:
                     went_on = used[0] > 0.0 or result["samples"][:, len(axes) + OTHERS.index("digital-out-00")].any()
                     problem = f"it went on: {problem}" if went_on else "" if options.refused in problem else f"it says: {problem}"

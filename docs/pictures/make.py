@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Makes every picture of the docs from data: make.py BUILD_DIRECTORY, or compares them with what is there: make.py --check BUILD_DIRECTORY.
 
-What late.svg shows was measured on a clock: late.json has the measurement. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
+What late.svg and linuxcnc_corner.svg show was measured: files beside them have the measurements. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
 chromium, those of examples/python by matplotlib. Their fonts differ from machine to machine: they are made, and not compared."""
 import os
 import pathlib
@@ -26,6 +26,8 @@ def pictures(tool):
                                "examples/butterfly.json")
     yield "tolerance.svg", drawn("tolerance.py", tool)
     yield "late.svg", drawn("late.py", "docs/pictures/late.json")
+    yield "linuxcnc_corner.svg", drawn("linuxcnc_corner.py", "docs/pictures/linuxcnc_corner.json")
+    yield "linuxcnc_times.svg", drawn("linuxcnc_times.py", "hal/linuxcnc/README.md")
 
 
 def same(made, there):

@@ -17,9 +17,9 @@ static int jerk[tpc_axes];
 RTAPI_MP_ARRAY_INT(jerk, tpc_axes, "jerk limits in the order of axes, units/s^3; one for all; 0: none");
 static int inch = 0;
 RTAPI_MP_INT(inch, "1: the machine's unit is the inch");
-static int tolerance_um = 50;
+static int tolerance_um = 0;
 RTAPI_MP_INT(tolerance_um, "tolerance of G64 without P, micrometres; 0: corners as fast as they can be");
-static const double usual_um = 50.0; /* at least, and of curves of short lines, then */
+static const double least_um = 50.0; /* then; and of curves of short lines */
 static int share = 10;
 RTAPI_MP_INT(share, "part of a servo period that planning may take, per cent, 1 to 90");
 static int ahead = 0;
@@ -66,7 +66,7 @@ static double as_fast_as_can_be(double speed, double (*acceleration)(int)) {
 void module_tolerance(double programmed, double speed, double (*acceleration)(int), struct tpc_move *move) {
     const double mm = inch ? 25.4 : 1.0;
     const int free = !(programmed > 0.0) && tolerance_um == 0;
-    const double least = (tolerance_um > 0 ? tolerance_um : usual_um) * 1e-3 / mm;
+    const double least = (tolerance_um > 0 ? tolerance_um : least_um) * 1e-3 / mm;
     const double wanted = free ? fmax(least, as_fast_as_can_be(speed, acceleration)) : programmed > 0.0 ? programmed : least;
     move->tolerance = fmin(wanted, TPC_MOST_TOLERANCE / mm);
     move->joins = free ? least : 0.0; /* short lines keep their shape */

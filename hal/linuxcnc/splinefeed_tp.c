@@ -67,6 +67,9 @@ static void read_limits(double period_s) {
 void tp_clear_io(TP_STRUCT *tp) { memset(&tp->syncdio, 0, sizeof tp->syncdio); }
 
 unsigned tp_queued(void) { return out.last - out.first; }
+int tp_moves(const TP_STRUCT *tp) {
+    return status->current_vel > 0.0 || MOTION_ID_VALID(tp->spindle.waiting_for_atspeed) || MOTION_ID_VALID(tp->spindle.waiting_for_index);
+}
 
 /* An error that is not one of a new move: an abort, and task ends its program at this flag. Until it does, moves that it has
  * sent meanwhile are refused, because they would begin elsewhere. */
@@ -83,6 +86,7 @@ void tp_aborted(void) { failed = 0; }
 static void all_over(TP_STRUCT *tp) {
     tp->goalPos = tp->currentPos;
     tp->done = 1;
+    if (tp->aborting) tp->reverse_run = TC_DIR_FORWARD;
     tp->aborting = 0;
     tp->pausing = 0;
     begun = out.last;
@@ -285,7 +289,7 @@ static void lock_indexer(void) {
 
 /* Moves that begin write their outputs, those that are over lock their indexers. */
 static void begin_moves(unsigned before) {
-    for (unsigned n = before; n != out.first; ++n) {
+    for (unsigned n = before; (int)(out.first - n) > 0; ++n) { /* on the way back it is before */
         if (told[n % tpc_capacity].indexer != -1) locking = told[n % tpc_capacity].indexer;
     }
     lock_indexer();
@@ -296,7 +300,7 @@ static void begin_moves(unsigned before) {
 
 /* Whether the move that waits at standstill may begin. */
 static int may_begin(TP_STRUCT *tp) {
-    if (!out.waits || locking != -1) return 0;
+    if (!out.waits || locking != -1 || tp->reverse_run != TC_DIR_FORWARD) return 0;
     const struct told *q = &told[out.pushed % tpc_capacity];
     if (q->atspeed || q->pitch > 0.0) {
         for (int s = 0; s < config->numSpindles; ++s) {
@@ -345,10 +349,12 @@ static void run(TP_STRUCT *tp) {
         tpc_begin(&machine);
     }
     const unsigned before = out.first;
+    const int was_back_over = out.back_over;
     struct tpc_input in = {.hold = tp->pausing, .abort = tp->aborting, .steps = status->stepping};
     in.max_feed = tp->vLimit > 0.0 ? tp->vLimit : 0.0;
     override(&in);
     in.may_begin = may_begin(tp);
+    in.backward = tp->reverse_run != TC_DIR_FORWARD;
     const int synced = told[out.first % tpc_capacity].synced;
     if (synced) tp_tell_spindle(&status->spindle_status[synced - 1]);
     tpc_run(&in, &out);
@@ -357,15 +363,15 @@ static void run(TP_STRUCT *tp) {
         if (module_has_axis(machine.axis[k])) *tp_part(&tp->currentPos, machine.axis[k]) = out.position[machine.axis[k]];
     }
     if (out.error != 0) give_up(tp, out.error);
+    if (out.back_over && !was_back_over) rtapi_print_msg(RTAPI_MSG_ERR, "splinefeed_tp: the way back ends here\n");
     if (tp->aborting) {
         tp_forget_index(tp, status);
         begun = out.last; /* what has not begun writes nothing, and an indexer stays as it is */
         locking = -1;
     }
     begin_moves(tp->aborting ? out.first : before);
-    const int over = out.first == out.last;
     if (out.complete) tp->currentPos = told[(out.last - 1) % tpc_capacity].end; /* to the last digit */
-    if (!over) {
+    if (tp_queued() != 0) {
         show_move(tp);
     } else if (locking == -1) {
         all_over(tp);

@@ -113,15 +113,17 @@ int tpSetDout(TP_STRUCT *const tp, int index, unsigned char start, unsigned char
     return TP_ERR_OK;
 }
 
-/* Asked in every period while the adaptive feed is negative: no message. */
+/* Asked in every period until the machine stands, while the adaptive feed is negative, and then positive: no message. */
 int tpSetRunDir(TP_STRUCT *const tp, tc_direction_t dir) {
-    return tp == 0 || dir != TC_DIR_FORWARD ? TP_ERR_FAIL : TP_ERR_OK;
+    if (tp == 0 || (dir != TC_DIR_FORWARD && dir != TC_DIR_REVERSE) || tp_moves(tp)) return TP_ERR_FAIL;
+    tp->reverse_run = dir;
+    return TP_ERR_OK;
 }
 
 /* motmod asks this of &tp->queue, which is not used here. */
 int tcqFull(TC_QUEUE_STRUCT const *const unused) {
     (void)unused;
-    return tp_queued() >= tpc_capacity - 48U;
+    return tp_queued() >= tpc_capacity - tpc_kept - 48U;
 }
 
 EXPORT_SYMBOL(tpAbort);

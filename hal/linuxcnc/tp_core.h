@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-enum { tpc_axes = 9, tpc_capacity = 2048 }; /* X Y Z A B C U V W; moves in the queue, a power of two */
+enum { tpc_axes = 9, tpc_capacity = 2048, /* X Y Z A B C U V W; moves in the queue, a power of two, */
+       tpc_kept = 512 };                  /* and of those behind the machine, for the way back */
 
 /* What the core takes of an axis at most, mm/s, mm/s^2, mm/s^3; degrees where it is rotary. */
 #define TPC_MOST_VELOCITY 9999.999
@@ -53,6 +54,7 @@ struct tpc_input {
     double max_feed; /* 0 stops; a large number: none */
     int hold, abort, may_begin;
     int steps; /* single step: each move stands at its end, whatever its mode, also where it was planned to go on */
+    int backward; /* along the path so far: it brakes, and turns where it stands */
 };
 
 struct tpc_output {
@@ -63,6 +65,7 @@ struct tpc_output {
     unsigned first, pushed, last; /* sequence numbers: the move under way, the next one that is planned, one behind the
                                      newest. Nothing is queued where first == last, and then the machine stands. */
     int in_step; /* single step, and the machine does not stand at the end of a move */
+    int back_over; /* it stands where the way back ends: nothing more is kept, or the path began there */
     int waits;                    /* the machine stands before move `pushed`, until may_begin */
     int complete;                 /* it has come to the end of the newest move, and stands; for one period */
     int reverses; /* for one period: 1: the spindle is to turn back, at the end of a tap; 2: as before, at its start */

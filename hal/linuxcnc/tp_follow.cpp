@@ -65,8 +65,28 @@ void TpMotion::follow(bool planned) noexcept {
     }
     if (has_now_) {
         at_ = place();
-        come_to(base_ + now_.waypoint, at_);
+        if (backs()) {
+            come_back_to(now_.waypoint, at_);
+        } else {
+            come_to(base_ + curve_.move_of(now_.waypoint), at_);
+        }
     }
+}
+
+// Whether the machine has not passed the plane through the end of move n that halves the angle to the next one.
+bool TpMotion::is_before_end(unsigned n, const Mm& at) noexcept {
+    const QueuedMove& here = move(n);
+    const QueuedMove& next = move(n + 1U);
+    double along = 0.0;
+    double past = 0.0;
+    double straight = 1.0; // 0: back where it came from, so no plane halves the angle
+    for (const unsigned k : indices(machine_.axes)) {
+        const double way = at[k] - here.to[k];
+        along += way * (here.out[k] + next.in[k]);
+        past += way * here.out[k];
+        straight += here.out[k] * next.in[k];
+    }
+    return (straight > turns_back ? along : past) < 0.0;
 }
 
 // The machine is on the piece of path that ends with move n.
@@ -82,26 +102,16 @@ void TpMotion::come_to(unsigned n, const Mm& at) noexcept {
     }
     for (unsigned i = 0; i<most_left&& static_cast<int>(n + 1U - first_)> 0 && pushed_ - first_ > 1U; ++i) {
         turn(at);
-        const QueuedMove& here = move(first_);
-        const QueuedMove& next = move(first_ + 1U);
-        if (here.element.shape == MoveShape::arc && turns_left_rad_ > half_turn_rad) {
+        const bool on_arc = move(first_).element.shape == MoveShape::arc;
+        if (on_arc && turns_left_rad_ > half_turn_rad) {
             neared_ = first_ - 1U; // each turn passes that plane
             break;
         }
-        double along = 0.0;
-        double past = 0.0;
-        double straight = 1.0; // 0: back where it came from, so no plane halves the angle
-        for (const unsigned k : indices(machine_.axes)) {
-            const double way = at[k] - here.to[k];
-            along += way * (here.out[k] + next.in[k]);
-            past += way * here.out[k];
-            straight += here.out[k] * next.in[k];
-        }
-        if ((straight > turns_back ? along : past) < 0.0) {
+        if (is_before_end(first_, at)) {
             neared_ = first_;
             break;
         }
-        if (here.element.shape == MoveShape::arc && neared_ != first_) {
+        if (on_arc && neared_ != first_) {
             break; // its start is behind that plane, too
         }
         ++first_;
@@ -137,10 +147,11 @@ double TpMotion::told_way(const Mm& from, const Mm& to) const noexcept {
 
 void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
     Mm left{};
+    const Mm& goal = !backs() ? move(first_).to : first_ == begun_ ? begun_at_ : move(first_ - 1U).to;
     for (const unsigned k : indices(machine_.axes)) {
         const double mm = scale(k);
         output.position[machine_.axis[k]] = at_[k] / mm;
-        left[k] = first_ != last_ ? move(first_).to[k] - at_[k] : 0.0;
+        left[k] = first_ != last_ ? goal[k] - at_[k] : 0.0;
         output.to_go[machine_.axis[k]] = left[k] / mm;
     }
     output.speed = told_way(before, at_) / machine_.period_s;
@@ -150,6 +161,7 @@ void TpMotion::tell(const Mm& before, tpc_output& output) noexcept {
     output.last = last_;
     const bool waits = state_ == State::between || state_ == State::path_waits || state_ == State::sync_waits;
     output.waits = waits ? 1 : 0;
+    output.back_over = state_ == State::back_over || (brakes_ && !has_now_ && ring_count_ == 0) ? 1 : 0;
     output.error = error_;
     error_ = nullptr;
 }
@@ -163,6 +175,7 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
     if (state_ >= State::sync_waits) {
         run_synced(input, output);
     } else if (state_ >= State::path) {
+        brakes_ = turns_round(input.backward != 0);
         steer(input);
         follow(plan(input.may_begin != 0));
         const bool waits = state_ == State::path_waits;
@@ -176,7 +189,7 @@ void TpMotion::run(const tpc_input& input, tpc_output& output) noexcept {
         }
         if (aborted || complete) {
             forget();
-        } else if (!sent_abort_) {
+        } else if (!sent_abort_ && !backs() && !brakes_) {
             output.in_step = step(input.steps != 0) ? 1 : 0;
         }
     } else if (input.abort != 0 || failed_) {

@@ -39,6 +39,7 @@ void module_count(long long ns);
 void tp_clear_io(TP_STRUCT *tp);
 void tp_state_position(TP_STRUCT *tp); /* the core forgets its moves, and is at currentPos */
 unsigned tp_queued(void);
+int tp_moves(const TP_STRUCT *tp); /* or waits for the spindle */
 void tp_aborted(void); /* task knows of an error */
 
 /* tp_feed.c */

@@ -85,7 +85,7 @@ Mm TpMotion::mm_of(const double* position) const noexcept {
 void TpMotion::leave_path() noexcept {
     ring_head_ = ring_count_ = 0;
     state_ = State::no_path;
-    has_now_ = refills_ = false;
+    has_now_ = refills_ = brakes_ = false;
     in_now_s_ = 0.0;
 }
 
@@ -199,13 +199,15 @@ const char* TpMotion::begin_path() noexcept {
     const double segments = machine_.period_s * ticks_per_s / limits_.segment_ticks;
     per_period_ = larger(1U, static_cast<unsigned>(segments + 0.5));
     rules_ = path_rules(settings);
+    rules_.roundest = limits_.jerk_limited ? 1.0 : 2.0;
     const PerAxis<Position> start = position_from_mm(at_, machine_.axes);
     Planner<double>& planner = limits_.jerk_limited ? static_cast<Planner<double>&>(jerk_) : acceleration_;
-    stream_.build(limits_, planner, rules_);
+    stream_.build(limits_, planner, rules_, &curve_);
     if (const Status placed = stream_->place(start); !placed.ok()) {
         return describe(placed.error());
     }
-    base_ = floor_ = pushed_;
+    base_ = floor_ = begun_ = front_ = pushed_;
+    begun_at_ = at_;
     if (const Status led = leads ? lead() : Status{}; !led.ok()) {
         return describe(led.error());
     }
@@ -227,8 +229,8 @@ void TpMotion::steer(const tpc_input& input) noexcept {
     if (pushed_ == first_ && !has_now_) { // nothing is planned
         stepped_ = input.steps != 0;
     }
-    const bool parts = input.steps != 0 && !stepped_; // to take it apart, it stands
-    const bool stops = input.hold != 0 || !(input.max_feed > 0.0) || parts;
+    const bool parts = input.steps != 0 && !stepped_ && !backs(); // to take it apart, it stands
+    const bool stops = input.hold != 0 || !(input.max_feed > 0.0) || parts || brakes_;
     if (ratio_.take(stops ? 0.0 : input.ratio, machine_.period_s, pace_s)) {
         stream_->override_feed(Fixed::from_double(ratio_.value()));
     }
@@ -243,7 +245,7 @@ void TpMotion::steer(const tpc_input& input) noexcept {
 
 // Gives the stream one more move; false: none may go now.
 bool TpMotion::push_one(bool may_begin) noexcept {
-    if (pushed_ == last_ || (stepped_ && pushed_ != first_)) {
+    if (pushed_ == last_ || backs() || (stepped_ && pushed_ != first_)) {
         return false;
     }
     const QueuedMove& next = move(pushed_);
@@ -253,6 +255,9 @@ bool TpMotion::push_one(bool may_begin) noexcept {
             return false;
         }
         stream_->go_on();
+        if (next.element.stop_at_end || move(pushed_ - 1U).element.stop_at_end) {
+            curve_.forget(); // an axis is unlocked or locked here
+        }
     }
     const Result<bool> taken = stream_->push(next.element);
     if (!taken.has_value()) {
@@ -333,7 +338,8 @@ bool TpMotion::plan(bool may_begin) noexcept {
         refills_ = (refills_ || (over && limits_.jerk_limited)) && moves;
         const bool urgent = over || refills_;
         FeedSegment& out = ring_[(ring_head_ + ring_count_) % ring_size];
-        const Pull pull = stream_->next(out, urgent ? Supply::urgent : stream_->early(supply), urgent ? 1U : part);
+        const Supply asked = urgent ? Supply::urgent : backs() ? Supply::late : stream_->early(supply);
+        const Pull pull = stream_->next(out, asked, urgent ? 1U : part);
         if (pull == Pull::item) {
             ++ring_count_;
             figures_.urgent += urgent ? 1U : 0U;
@@ -347,6 +353,9 @@ bool TpMotion::plan(bool may_begin) noexcept {
             if (const Status path = stream_->status(); !path.ok()) {
                 fail(describe(path.error()));
             }
+            return true;
+        } else if (backs()) {
+            state_ = stands() ? State::back_over : state_;
             return true;
         } else if (push_moves(may_begin)) {
             continue;

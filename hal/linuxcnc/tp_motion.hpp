@@ -9,6 +9,7 @@
 // by the plan that there is, which ends at standstill (UnderrunPolicy::urgent).
 #pragma once
 
+#include "kept_curve.hpp"
 #include "spindle_sync.hpp"
 #include "tp_core.h"
 #include "tp_paced.hpp"
@@ -62,6 +63,8 @@ private:
         between, ///< the same, before move `pushed_`, which follows the spindle
         path,
         path_waits, ///< at standstill before move `pushed_`
+        backs,      ///< on its way back
+        back_over,  ///< at standstill at the end of it
         sync_waits, ///< likewise, before a move that follows the spindle
         sync,       ///< it follows the spindle
         tap_back,   ///< and back
@@ -74,6 +77,7 @@ private:
     static constexpr std::size_t all_jerk_cells = jerk_cells + jerk_cells / 3;
     static constexpr int most_ahead = 64;                  // periods
     static constexpr unsigned ring_size = 8U * most_ahead; // a period has up to 8 segments (MachineTiming)
+    static_assert(KeptCurve::capacity >= 2U * (window_cells + all_jerk_cells), "the plan knows as many segments ahead");
 
     [[nodiscard]] QueuedMove& move(unsigned n) noexcept { return queue_[n % tpc_capacity]; }
     [[nodiscard]] double scale(unsigned k) const noexcept {
@@ -96,7 +100,7 @@ private:
     [[nodiscard]] bool knows_enough() noexcept;
     [[nodiscard]] bool rests() const noexcept;
     [[nodiscard]] bool stands() const noexcept { return ring_count_ == 0 && rests(); }
-    [[nodiscard]] bool at_known_end() const noexcept { return stands() && stream_->exhausted(); }
+    [[nodiscard]] bool at_known_end() const noexcept { return !backs() && stands() && stream_->exhausted(); }
     void follow(bool planned) noexcept;
     [[nodiscard]] SpindleSync::Leg leg(unsigned n, const Mm& from) noexcept;
     [[nodiscard]] bool goes_on(unsigned n) noexcept;
@@ -106,7 +110,11 @@ private:
     void follow_spindle() noexcept;
     void tap(tpc_output& output) noexcept;
     [[nodiscard]] Mm place() const noexcept;
+    [[nodiscard]] bool is_before_end(unsigned n, const Mm& at) noexcept;
     void come_to(unsigned n, const Mm& at) noexcept;
+    [[nodiscard]] bool backs() const noexcept { return state_ == State::backs || state_ == State::back_over; }
+    [[nodiscard]] bool turns_round(bool backward) noexcept;
+    void come_back_to(std::uint32_t piece, const Mm& at) noexcept;
     [[nodiscard]] double turned_to_end(const Mm& at) noexcept;
     void turn(const Mm& at) noexcept;
     void take_apart() noexcept;
@@ -132,6 +140,7 @@ private:
     MotionLimits<double> limits_;
     PathRules<double> rules_;
     SpindleSync sync_; // for moves that follow the spindle, in place of the trajectory
+    KeptCurve curve_;  // between the path and the plan
 
     // Sequence numbers of moves count up and wrap around.
     std::array<QueuedMove, tpc_capacity> queue_;
@@ -139,6 +148,8 @@ private:
     unsigned pushed_ = 0;    // the next one for the path
     unsigned last_ = 0;      // one behind the newest
     unsigned base_ = 0;      // move 0 of the path
+    unsigned begun_ = 0;     // the first move of the path
+    unsigned front_ = 0;     // the farthest one that was under way
     unsigned floor_ = 0;     // everything before it is over
     unsigned piece_ = 0;     // the move at the end of the piece of path that the machine is on
     unsigned neared_ = 0;    // the move whose end was seen ahead
@@ -146,6 +157,7 @@ private:
     unsigned turning_ = ~0U; // the arc that `turns_left_rad_` is of
     double turns_left_rad_ = 0.0;
     Mm lead_to_{};
+    Mm begun_at_{}; // the path
 
     std::array<FeedSegment, ring_size> ring_;
     unsigned ring_head_ = 0;
@@ -164,6 +176,7 @@ private:
     bool sent_abort_ = false;
     bool failed_ = false;  // what is queued is not travelled
     bool stepped_ = false; // the path is one move, because of single step
+    bool brakes_ = false;  // to turn round
     bool has_now_ = false;
     bool refills_ = false; // the ring, by the old plan
 };

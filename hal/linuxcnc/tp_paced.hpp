@@ -6,7 +6,8 @@ namespace splinefeed::linuxcnc {
 
 /// Every change makes a plan anew, and a change that comes before its plan is made is in vain: a feed of 0 and 1 in
 /// turn would creep, or never begin. So the value is passed on at most once in a time `pace_s`, and while it changes
-/// more often, as its mean since then.
+/// more often, as its mean since then. At a pace of 0.1 s and more, where a plan is a search, a mean that is within 1 %
+/// of what was passed on is noise, and changes nothing.
 ///
 /// A swing is passed on at once: to 0 or from it, below half of what it was, or above twice of it. If one comes back
 /// within 0.2 s, the pace is 0.1 s at least: within a pace of 4 ms a machine can neither start nor stop, so a feed of
@@ -42,6 +43,12 @@ public:
         if (value == passed_ || (!at_once && since_passed_s_ < pace_s)) {
             return false;
         }
+        const double change = value > passed_ ? value - passed_ : passed_ - value;
+        if (restless_ && !at_once && pace_s >= slow_s && change <= noise * passed_) {
+            since_passed_s_ *= 0.5; // the older half of the mean fades
+            sum_s_ *= 0.5;
+            return false;
+        }
         passed_ = value;
         since_passed_s_ = sum_s_ = 0.0;
         return true;
@@ -50,6 +57,7 @@ public:
 
 private:
     static constexpr double slow_s = 0.1; // pace of a value that swings
+    static constexpr double noise = 0.01; // of the value
 
     bool swings(double asked) noexcept {
         const bool at_zero = (asked > 0.0) != (asked_ > 0.0);

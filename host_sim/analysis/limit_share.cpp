@@ -58,7 +58,6 @@ void LimitShare::segment(const FeedSegment& segment) {
         const auto m1 = static_cast<double>(segment.end_velocity[k]);
         const double velocity = (6.0 * distance - m0 - m1) * 0.25 * per_s;
         const double acceleration = (m1 - m0) * per_s / duration_s;
-        const double jerk = (6.0 * (m0 + m1) - 12.0 * distance) * per_s / (duration_s * duration_s);
         const AxisSettings& limits = machine_.axis[k];
         const auto of = [k](LimitKind kind) {
             return BindingLimit{kind, static_cast<std::uint8_t>(k)};
@@ -68,7 +67,10 @@ void LimitShare::segment(const FeedSegment& segment) {
             count(axis.acceleration, std::fabs(acceleration),
                   velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2,
                   of(LimitKind::acceleration));
-        bound_.acceleration |= count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3, of(LimitKind::jerk));
+        if (limits.max_jerk_mm_s3 > 0.0) {
+            const double jerk = (6.0 * (m0 + m1) - 12.0 * distance) * per_s / (duration_s * duration_s);
+            bound_.acceleration |= count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3, of(LimitKind::jerk));
+        }
         speed_sq += velocity * velocity;
         linear_sq += limits.rotary ? 0.0 : velocity * velocity;
         acceleration_sq += acceleration * acceleration;
@@ -81,10 +83,12 @@ void LimitShare::segment(const FeedSegment& segment) {
     if (bound_.feed && feed < machine_.max_feed_mm_s) {
         programmed_ += ticks;
     }
-    const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;
-    const double across = std::sqrt(std::max(across_sq, 0.0));
-    bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2, {LimitKind::centripetal});
-    bound_.acceleration |= count(chord_, across, chord_mm_s2_, {LimitKind::chord});
+    if (machine_.centripetal_mm_s2 > 0.0 || chord_mm_s2_ > 0.0) {
+        const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;
+        const double across = std::sqrt(std::max(across_sq, 0.0));
+        bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2, {LimitKind::centripetal});
+        bound_.acceleration |= count(chord_, across, chord_mm_s2_, {LimitKind::chord});
+    }
     none_ += bound ? 0U : ticks;
     total_ += ticks;
 }

@@ -20,6 +20,9 @@ constexpr int parts_a_move = 4; // of a segment through several
 constexpr std::size_t halves_of_blend = 2;
 constexpr int searches = 24; // of the golden section: 1e-5 of a part
 constexpr double golden = 0.6180339887498949;
+constexpr double rounding_mm = 1e-9; // of distances that are compared, and more
+constexpr double chords_a_bow =
+    64.0; // of a segment, squared, where its bow is as large as the distance: theirs is a 64th
 constexpr double peak_over_sample = 1.5; // at most, of a distance between the looks at a segment
 
 /// The argument between low and high where `value` is largest, if it has one maximum there.
@@ -202,10 +205,64 @@ void PathDeviation::found(unsigned set, const Found& found) {
     }
 }
 
+// A distance of a place from a move that changes nothing: it is neither too large nor larger than the largest one.
+double PathDeviation::harmless(unsigned set, std::uint64_t move) const noexcept {
+    return listener_ ? -1.0 : std::fmin(largest_[set].distance, allowed(move)) - rounding_mm;
+}
+
+// Whether all its distances from straight moves are. A distance from a line is convex: on a chord of the segment it is
+// that of an end at most. Where the nearest move is another one at the end, the chord is divided beside their joint.
+bool PathDeviation::is_harmless(const Segment& segment, unsigned s) const noexcept {
+    const AxisSet& set = sets_[s];
+    const double most = harmless(s, segment.last);
+    if (!(most > 0.0)) {
+        return false;
+    }
+    const double whole = segment.strand.bow(set, 1.0);
+    const auto parts =
+        static_cast<int>(std::fmin(1.0 + std::sqrt(chords_a_bow * whole / most), segment.strand.parts()));
+    const double bow = whole / (parts * parts);
+    std::uint64_t near = segment.first;
+    PerAxis<double> before = segment.strand.at(0.0);
+    const auto is_near = [&](std::uint64_t move, const PerAxis<double>& place) {
+        double anywhere = 0.0;
+        return of(move).strand.straight() &&
+               of(move).strand.distance_downhill(place, set, 0.0, anywhere) + bow <= harmless(s, move);
+    };
+    while (!is_near(near, before)) {
+        if (near++ == segment.last) {
+            return false;
+        }
+    }
+    for (int i = 1; i <= parts; ++i) {
+        const PerAxis<double> here = segment.strand.at(i / static_cast<double>(parts));
+        while (!is_near(near, here)) {
+            const PerAxis<double> joint = of(near).strand.at(1.0);
+            const double apart = distance_from_line(joint, before, here, set) + bow;
+            if (near++ == segment.last || !of(near).strand.straight() ||
+                !(apart <= std::fmin(harmless(s, near - 1), harmless(s, near)))) {
+                return false;
+            }
+        }
+        before = here;
+    }
+    return true;
+}
+
+// The same of a place of a move and the segments that may follow it.
+bool PathDeviation::is_harmless(const PerAxis<double>& point, unsigned s, std::uint64_t move) noexcept {
+    const double enough = harmless(s, move);
+    return enough > 0.0 && std::ranges::any_of(segments_, [&](Segment& segment) {
+               return segment.first <= move && move <= segment.last &&
+                      segment.strand.at_least_sq(point, sets_[s]) <= enough * enough &&
+                      segment.strand.distance_downhill(point, sets_[s], enough, segment.foot) <= enough;
+           });
+}
+
 void PathDeviation::measure_segment(const Segment& segment) {
     const int parts = segment.strand.straight() ? 2 : segment.strand.parts();
     for (unsigned s = 0; s < sets_.size(); ++s) {
-        if (sets_[s].count == 0) {
+        if (sets_[s].count == 0 || is_harmless(segment, s)) {
             continue;
         }
         std::uint64_t near = segment.first;
@@ -240,8 +297,10 @@ void PathDeviation::measure_move(std::uint64_t index) {
     const int parts = strand.straight() ? parts_of_line : strand.parts();
     for (unsigned s = 0; s < sets_.size(); ++s) {
         for (int i = index == 0 ? 0 : 1; i <= parts && sets_[s].count > 0; ++i) {
-            found(s,
-                  {from_segments(strand.at(i / static_cast<double>(parts)), sets_[s], index), allowed(index), index});
+            const PerAxis<double> place = strand.at(i / static_cast<double>(parts));
+            if (!is_harmless(place, s, index)) {
+                found(s, {from_segments(place, sets_[s], index), allowed(index), index});
+            }
         }
     }
 }

@@ -44,7 +44,7 @@ PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>&
         arc_ = arc_of(from, move, axes);
         parts_ = std::clamp(static_cast<int>(std::fabs(arc_->angle()) / part_of_arc), 8, most_parts);
     }
-    prepare();
+    bound();
 }
 
 PathStrand::PathStrand(const CurveSegment<double>& segment, int detail) : axes_(segment.axes), degree_(segment.degree) {
@@ -54,24 +54,26 @@ PathStrand::PathStrand(const CurveSegment<double>& segment, int detail) : axes_(
         }
     }
     parts_ = degree_ == 1 ? 1 : std::min(parts_of_bezier + detail, most_parts);
-    prepare();
+    bound();
 }
 
-void PathStrand::prepare() {
-    if (!straight()) {
-        for (int i = 0; i <= parts_; ++i) {
-            places_.push_back(at(i / static_cast<double>(parts_)));
-        }
-        for (std::size_t first = 0; first < places_.size(); first += block) {
-            Box& box = blocks_.emplace_back(Box{places_[first], places_[first]});
-            for (std::size_t i = first; i < std::min(first + block, places_.size()); ++i) {
-                for (const unsigned k : indices(axes_)) {
-                    box.low[k] = std::fmin(box.low[k], places_[i][k]);
-                    box.high[k] = std::fmax(box.high[k], places_[i][k]);
-                }
+// Most strands are only compared with their boxes, or near places that are known.
+void PathStrand::look_ahead() const {
+    for (int i = 0; i <= parts_; ++i) {
+        places_.push_back(at(i / static_cast<double>(parts_)));
+    }
+    for (std::size_t first = 0; first < places_.size(); first += block) {
+        Box& box = blocks_.emplace_back(Box{places_[first], places_[first]});
+        for (std::size_t i = first; i < std::min(first + block, places_.size()); ++i) {
+            for (const unsigned k : indices(axes_)) {
+                box.low[k] = std::min(box.low[k], places_[i][k]);
+                box.high[k] = std::max(box.high[k], places_[i][k]);
             }
         }
     }
+}
+
+void PathStrand::bound() {
     for (const unsigned k : indices(axes_)) {
         const auto* const first = control_[k].begin();
         const auto [low, high] = std::minmax_element(first, first + degree_ + 1);
@@ -144,6 +146,24 @@ double distance_sq(const PerAxis<double>& a, const PerAxis<double>& b, const Axi
     });
 }
 
+double distance_from_line(const PerAxis<double>& point, const PerAxis<double>& from, const PerAxis<double>& to,
+                          const AxisSet& set) noexcept {
+    double along = 0.0;
+    double length_sq = 0.0;
+    for (const unsigned n : indices(set.count)) {
+        const unsigned k = set.axis[n];
+        const double way = to[k] - from[k];
+        along += (point[k] - from[k]) * way;
+        length_sq += way * way;
+    }
+    const double t = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
+    return std::sqrt(sum_of(set.count, [&](unsigned n) {
+        const unsigned k = set.axis[n];
+        const double apart = from[k] + t * (to[k] - from[k]) - point[k];
+        return apart * apart;
+    }));
+}
+
 double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept {
     return host::distance_sq(at(t), point, set);
 }
@@ -158,27 +178,11 @@ double PathStrand::Box::distance_sq(const PerAxis<double>& point, const AxisSet&
     return sum;
 }
 
-double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    double along = 0.0;
-    double length_sq = 0.0;
-    for (const unsigned n : indices(set.count)) {
-        const PerDegree<double>& c = control_[set.axis[n]];
-        const double way = c[static_cast<unsigned>(degree_)] - c[0];
-        along += (point[set.axis[n]] - c[0]) * way;
-        length_sq += way * way;
-    }
-    const double t = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
-    double sum = 0.0;
-    for (const unsigned n : indices(set.count)) {
-        const PerDegree<double>& c = control_[set.axis[n]];
-        const double apart = c[0] + t * (c[static_cast<unsigned>(degree_)] - c[0]) - point[set.axis[n]];
-        sum += apart * apart;
-    }
-    return std::sqrt(sum);
-}
-
 // The nearest of the places.
-PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& set) const {
+    if (places_.empty()) {
+        look_ahead();
+    }
     std::size_t nearest = 0;
     double best_sq = 1e300;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -227,7 +231,8 @@ PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const Ax
 
 // From a place downhill: by Newton's step where the distance is convex, else by that of Gauss and Newton. A step that
 // does not come nearer is halved, so the cost is bounded and no step leads away.
-PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, const AxisSet& set) const noexcept {
+PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, const AxisSet& set,
+                                     double enough_sq) const noexcept {
     double change = 0.0;
     double t = foot.t;
     for (int look = 0; look < most_looks; ++look) {
@@ -250,7 +255,7 @@ PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, co
             foot = {t, apart_sq};
             const double newton = speed_sq - bend;
             const double divisor = newton > least_share_of_newton * speed_sq ? newton : speed_sq;
-            if (apart_sq <= near_enough_sq || !(way * way > least_gain * apart_sq * divisor)) {
+            if (apart_sq <= enough_sq || !(way * way > least_gain * apart_sq * divisor)) {
                 return foot;
             }
             change = std::clamp(t + way / divisor, 0.0, 1.0) - t;
@@ -272,7 +277,7 @@ PathStrand::Foot PathStrand::search(Foot best, const PerAxis<double>& point, con
     for (int i = 0; i <= count; ++i) {
         const double next = i < count ? distance_sq(point, set, (i + 1) / static_cast<double>(count)) : 1e300;
         if (here <= before && here <= next) {
-            const Foot foot = descend({i / static_cast<double>(count), here}, point, set);
+            const Foot foot = descend({i / static_cast<double>(count), here}, point, set, near_enough_sq);
             best = foot.distance_sq < best.distance_sq ? foot : best;
         }
         before = here;
@@ -281,12 +286,37 @@ PathStrand::Foot PathStrand::search(Foot best, const PerAxis<double>& point, con
     return best;
 }
 
+double PathStrand::distance_downhill(const PerAxis<double>& point, const AxisSet& set, double enough,
+                                     double& t) const noexcept {
+    if (straight()) {
+        return distance_from_line(point, control_at(control_, 0, axes_),
+                                  control_at(control_, static_cast<unsigned>(degree_), axes_), set);
+    }
+    const Foot foot = descend({t, 0.0}, point, set, enough * enough);
+    t = foot.t;
+    return std::sqrt(foot.distance_sq);
+}
+
+// An eighth of the square of the part times the largest second derivative, which is not above that of the polygon.
+double PathStrand::bow(const AxisSet& set, double part) const noexcept {
+    double most_sq = 0.0;
+    for (unsigned i = 2; i <= static_cast<unsigned>(degree_); ++i) {
+        most_sq = std::max(most_sq, sum_of(set.count, [&](unsigned n) {
+                               const PerDegree<double>& c = control_[set.axis[n]];
+                               const double bend = c[i] - 2.0 * c[i - 1] + c[i - 2];
+                               return bend * bend;
+                           }));
+    }
+    return 0.125 * part * part * degree_ * (degree_ - 1) * std::sqrt(most_sq);
+}
+
 double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set, double enough) const noexcept {
     const bool turns = arc_ && set.axis[0] < 3;
     if (!turns && (degree_ == 1 || arc_)) {
-        return from_line(point, set);
+        return distance_from_line(point, control_at(control_, 0, axes_),
+                                  control_at(control_, static_cast<unsigned>(degree_), axes_), set);
     }
-    Foot foot = descend(turns ? guess_on_arc(point, set) : guess(point, set), point, set);
+    Foot foot = descend(turns ? guess_on_arc(point, set) : guess(point, set), point, set, near_enough_sq);
     if (!turns && foot.distance_sq > std::fmax(enough * enough, near_enough_sq)) {
         foot = search(foot, point, set);
     }

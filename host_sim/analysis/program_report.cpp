@@ -31,8 +31,11 @@ void ProgramReport::moved(std::uint32_t move, double seconds, BoundLimits bound)
     const Move& of = moves_[move];
     totals_[of.rapid ? 1 : 0].seconds += seconds;
     tools_[of.tool].seconds += seconds;
-    Line& line = lines_[of.line];
-    line.line = of.line;
+    if (line_ == nullptr || line_->line != of.line) {
+        line_ = &lines_[of.line];
+        line_->line = of.line;
+    }
+    Line& line = *line_;
     line.seconds += seconds;
     line.feed_s += bound.feed ? seconds : 0.0;
     line.velocity_s += bound.velocity ? seconds : 0.0;

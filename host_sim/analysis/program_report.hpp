@@ -64,6 +64,7 @@ private:
     MoveTotal totals_[2];
     std::map<std::int32_t, MoveTotal> tools_;
     std::map<std::uint64_t, Line> lines_;
+    Line* line_ = nullptr; // of the last segment: most have one with the next
     std::int32_t tool_ = 0;
     double dwell_s_ = 0.0;
 };

@@ -87,6 +87,10 @@ void add_gcode_options(CLI::App& app, Job& job) {
                    "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all of the machine's that "
                    "the dialect does not have");
     app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each");
+    app.add_option("--subprograms", gcode.subprograms,
+                   "FOLDER:FOLDER:...: where subprograms in files of their own are looked for, behind the folder of "
+                   "FILE");
+    app.add_option("--repeat", gcode.repeat, "N: how often a program runs that M99 ends (default 1)");
     app.add_flag("--increments", gcode.increments,
                  "fanuc: lengths without a decimal point count 0.001 mm, in inches 0.0001");
     app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /");

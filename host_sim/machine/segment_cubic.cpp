@@ -29,6 +29,12 @@ std::int64_t nearest_quotient(Wide128 numerator, std::int64_t denominator) noexc
     return static_cast<std::int64_t>(shifted / denominator - (shifted % denominator < 0 ? 1 : 0));
 }
 
+// Rounded to nearest; of 64 bits by an instruction, of more by a function.
+double as_double(Wide128 value) noexcept {
+    const auto narrow = static_cast<std::int64_t>(value);
+    return narrow == value ? static_cast<double>(narrow) : static_cast<double>(value);
+}
+
 } // namespace
 
 std::int64_t nearest_count(std::int64_t units) noexcept {
@@ -50,9 +56,9 @@ SegmentCubic::SegmentCubic(const FeedSegment& segment, unsigned axis, double uni
     a2_ = 3 * distance - 2 * m0 - m1;
     a3_ = m0 + m1 - 2 * distance;
     const double mm_s_per_unit = per_duration_ / units_per_mm;
-    b1_ = static_cast<double>(a1_) * mm_s_per_unit;
-    b2_ = static_cast<double>(2 * a2_) * mm_s_per_unit;
-    b3_ = static_cast<double>(3 * a3_) * mm_s_per_unit;
+    b1_ = as_double(a1_) * mm_s_per_unit;
+    b2_ = as_double(2 * a2_) * mm_s_per_unit;
+    b3_ = as_double(3 * a3_) * mm_s_per_unit;
     const double u = -0.5 * b2_ / b3_;
     if (u > 0.0 && u < 1.0) { // false for the NaN or infinity of b3 = 0
         peak_u_ = u;
@@ -60,6 +66,9 @@ SegmentCubic::SegmentCubic(const FeedSegment& segment, unsigned axis, double uni
 }
 
 std::int64_t SegmentCubic::travelled(int j, int n) const noexcept {
+    if (j == 0 || j == n) {
+        return j == 0 ? 0 : static_cast<std::int64_t>(a1_ + a2_ + a3_);
+    }
     const std::int64_t square = std::int64_t{n} * n;
     return nearest_quotient(((a3_ * j + a2_ * n) * j + a1_ * square) * j, square * n);
 }

@@ -8,6 +8,7 @@
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <iterator>
 #include <vector>
@@ -72,7 +73,10 @@ constexpr Sign word_signs[] = {
     {"m73", Dialect::marlin, 6},   {"m486", Dialect::marlin, 6},    {"m92", Dialect::marlin, 6},
     {"m17", Dialect::marlin, 6},   {"m18", Dialect::marlin, 6},     {"m300", Dialect::marlin, 6},
     {"m64", Dialect::linuxcnc, 3}, {"m65", Dialect::linuxcnc, 3},   {"m67", Dialect::linuxcnc, 6},
-    {"m68", Dialect::linuxcnc, 6}, {"g33.1", Dialect::linuxcnc, 6},
+    {"m68", Dialect::linuxcnc, 6}, {"g33.1", Dialect::linuxcnc, 6}, {"m888", Dialect::marlin, 6},
+    {"m2000", Dialect::marlin, 6}, {"m280", Dialect::marlin, 6},    {"m420", Dialect::marlin, 6},
+    {"m500", Dialect::marlin, 6},  {"m501", Dialect::marlin, 6},    {"m502", Dialect::marlin, 6},
+    {"m906", Dialect::marlin, 6},
 };
 
 // What a line of a macro begins with behind its number. No other dialect reads such a program, whatever else it has.
@@ -112,10 +116,27 @@ bool is_bare(std::string_view plain) noexcept {
                              (letter + 1 == plain.size() || (plain[letter + 1] >= 'a' && plain[letter + 1] <= 'z')));
 }
 
-bool is_macro(std::string_view code) noexcept {
-    if (code.front() == 'n') {
-        code.remove_prefix(std::min(code.find_first_not_of("0123456789", 1), code.size()));
+// The number of each G word, without zeros in front; 0 for G0.
+std::vector<int> g_numbers(std::string_view plain) {
+    std::vector<int> out;
+    for (std::size_t at = plain.find('g'); at != std::string_view::npos; at = plain.find('g', at + 1)) {
+        int number = 0;
+        std::from_chars(plain.data() + at + 1, plain.data() + plain.size(), number);
+        out.push_back(number);
     }
+    return out;
+}
+
+bool is_motion(int g) noexcept {
+    return g <= 3 || g == 5 || g == 33 || g == 38 || (g >= 73 && g <= 89 && g != 80);
+}
+
+std::string_view behind_number(std::string_view code) noexcept {
+    return code.front() == 'n' ? code.substr(std::min(code.find_first_not_of("0123456789", 1), code.size())) : code;
+}
+
+bool is_macro(std::string_view code) noexcept {
+    code = behind_number(code);
     return std::ranges::any_of(macro_signs, [&](std::string_view sign) { return code.starts_with(sign); });
 }
 
@@ -140,14 +161,13 @@ void DialectGuess::read_comment(std::string_view comment, std::uint64_t line) {
     }
 }
 
-void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
+void DialectGuess::read_words(std::string_view code, std::string_view macro, std::uint64_t line) {
     const std::string text = plain(code);
     if (text.empty()) {
         return;
     }
     readings_.add(code, text, line);
     percent_ = percent_ || text == "%";
-    const std::string_view macro = macro_name(code);
     if (!macro.empty() && (macro.find('_') != std::string_view::npos || is_still_macro(macro))) {
         count(Dialect::klipper, 20, macro, line);
         return;
@@ -161,7 +181,8 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
         return;
     }
     // A number of the program, and nothing else, is Fanuc's; LinuxCNC takes it, too.
-    const bool numbered = text.size() > 1 && text[0] == 'o' && std::all_of(text.begin() + 1, text.end(), is_figure);
+    const bool numbered =
+        text.size() > 1 && (text[0] == 'o' || text[0] == ':') && std::all_of(text.begin() + 1, text.end(), is_figure);
     if (numbered) {
         count(Dialect::fanuc, percent_ ? 5 : 3, code, line);
     } else if (text[0] == 'o' || text.find("#<") != std::string::npos) {
@@ -182,10 +203,37 @@ void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
     if (has_lathe_tool(text)) {
         count(Dialect::fanuc, 5, code, line);
     }
+    read_motion(code, text, line);
     const bool moves = has_word(text, "g1") || has_word(text, "g0") || has_word(text, "g01") || has_word(text, "g00");
     const std::size_t filament = code.find_first_of("eE");
     if (moves && filament != std::string_view::npos && filament > 0 && code[filament - 1] == ' ') { // no exponent
         count(Dialect::marlin, 6, code, line);
+    }
+}
+
+// What LinuxCNC refuses and another one takes, where nothing else says whose the program is.
+void DialectGuess::count_if_free(Dialect dialect, std::string_view text, std::uint64_t line) {
+    if (std::ranges::all_of(evidence_, [](const Evidence& of) { return of.points == 0; })) {
+        count(dialect, enough, text, line);
+    }
+}
+
+// Axis words without a motion word in effect: grbl begins with G0, and on Fanuc's controls G80 leaves the motion from
+// before it. An arc with all of I, J and K: grbl reads over the one across its plane.
+void DialectGuess::read_motion(std::string_view code, std::string_view plain, std::uint64_t line) {
+    const std::vector<int> numbers = g_numbers(plain);
+    const bool moves = std::ranges::any_of(numbers, is_motion);
+    const bool ends = std::ranges::count(numbers, 80) > 0 && !moves;
+    motion_ = moves ? Motion::stated : ends && motion_ == Motion::stated ? Motion::ended : motion_;
+    const std::string_view words = behind_number(plain);
+    if (numbers.empty() && words.size() > 1 && words[0] >= 'x' && words[0] <= 'z' && motion_ != Motion::stated) {
+        count_if_free(motion_ == Motion::ended ? Dialect::fanuc : Dialect::grbl, code, line);
+        motion_ = Motion::stated;
+    }
+    const bool is_arc = std::ranges::any_of(numbers, [](int g) { return g == 2 || g == 3; });
+    if (is_arc &&
+        std::ranges::all_of(std::string_view("ijk"), [&](char c) { return plain.find(c) != std::string_view::npos; })) {
+        count_if_free(Dialect::grbl, code, line);
     }
 }
 
@@ -199,12 +247,15 @@ void DialectGuess::add(std::string_view line, std::uint64_t number) {
         if (line[at] == '(') {
             const std::size_t end = std::min(line.find(')', at), line.size());
             read_comment(line.substr(at, end + 1 - at), number);
+            if (line.substr(at + 1, end - at).find('(') != std::string_view::npos) {
+                count_if_free(Dialect::grbl, line, number);
+            }
             at = end;
             continue;
         }
         code += line[at];
     }
-    read_words(code, number);
+    read_words(code, macro_name(line), number); // NAME(...) is a call of another control
 }
 
 Dialect DialectGuess::dialect() const noexcept {

@@ -40,13 +40,18 @@ private:
         std::string text;
     };
 
+    enum class Motion : std::uint8_t { none, stated, ended }; // by G80
+
     void count(Dialect dialect, int points, std::string_view text, std::uint64_t line);
+    void count_if_free(Dialect dialect, std::string_view text, std::uint64_t line);
     void read_comment(std::string_view comment, std::uint64_t line);
-    void read_words(std::string_view code, std::uint64_t line);
+    void read_words(std::string_view code, std::string_view macro, std::uint64_t line);
+    void read_motion(std::string_view code, std::string_view plain, std::uint64_t line);
 
     std::array<Evidence, dialects> evidence_{};
     LineReadings readings_;
     bool percent_ = false;
+    Motion motion_ = Motion::none;
 };
 
 } // namespace splinefeed::host

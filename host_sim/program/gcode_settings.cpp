@@ -4,12 +4,13 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
-
+#include "host_sim/base/option_number.hpp"
 #include "host_sim/base/trimmed_text.hpp"
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 namespace splinefeed::host {
@@ -17,6 +18,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double largest_word = 3000.0;
+constexpr int most_runs = 1'000'000;
 
 bool is_letter(char c) {
     return c >= 'A' && c <= 'Z';
@@ -66,6 +68,8 @@ std::string_view first_option(const GcodeArguments& arguments) noexcept {
     return arguments.dialect         ? "--dialect"
            : arguments.ignore        ? "--ignore"
            : arguments.tools         ? "--tools"
+           : arguments.subprograms   ? "--subprograms"
+           : arguments.repeat        ? "--repeat"
            : arguments.block_delete  ? "--block-delete"
            : arguments.optional_stop ? "--optional-stop"
            : arguments.increments    ? "--increments"
@@ -97,6 +101,17 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
     }
     if (arguments.tools) {
         out.tools = read_tool_file(*arguments.tools);
+    }
+    if (arguments.repeat) {
+        out.runs = static_cast<std::uint64_t>(read_option_integer("--repeat", *arguments.repeat, 1, most_runs));
+    }
+    const std::string folders = arguments.subprograms.value_or("");
+    for (const std::string_view folder :
+         arguments.subprograms ? split(folders, ':') : std::vector<std::string_view>{}) {
+        if (!std::filesystem::is_directory(folder)) {
+            throw UsageError("--subprograms: {} is no folder; name folders, separated by colons", in_quotes(folder));
+        }
+        out.subprogram_folders.emplace_back(folder);
     }
     out.block_delete = arguments.block_delete;
     out.optional_stop = arguments.optional_stop;

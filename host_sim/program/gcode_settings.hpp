@@ -21,6 +21,8 @@ struct GcodeArguments {
     std::optional<std::string> dialect;
     std::optional<std::string> ignore;
     std::optional<std::string> tools;
+    std::optional<std::string> subprograms;
+    std::optional<std::string> repeat;
     bool block_delete = false;
     bool optional_stop = false;
     bool increments = false;
@@ -43,18 +45,20 @@ struct GcodeSettings {
     std::optional<ToolRows> tools;          ///< none: G43 and G43 H are refused
     bool block_delete = false;
     bool optional_stop = false;
-    bool simulated = true;                       ///< a simulated machine has a spindle, coolant, and everything else
-    const SpindleDescription* spindle = nullptr; ///< of the machine; null: its file says nothing of one
-    const ProgramPins* lines = nullptr;          ///< coolant and outputs of the machine; null: it has none
-    double tolerance_mm = 0.01;                  ///< of G64 without P
-    int chain_quarters = 3;                      ///< of P, for the chains of G64 without Q
-    double rapid_tolerance_mm = 0.1;             ///< between rapids
-    double max_feed_mm_s = 0.0;                  ///< of moves with a feed, along the linear axes; 0: none
-    std::uint32_t rotary_axes = 0;               ///< bit k: axis k of the machine is rotary
-    std::vector<std::string> axes;               ///< names: x, y, z, a, b, c
-    std::uint64_t most_moves = 0;                ///< the program ends behind them; 0: all count
-    std::optional<WorkOffsets> offsets{};        ///< of a state file
-    PerAxis<Position> start{};                   ///< where the machine stands, in its own coordinates
+    bool simulated = true;                         ///< a simulated machine has a spindle, coolant, and everything else
+    const SpindleDescription* spindle = nullptr;   ///< of the machine; null: its file says nothing of one
+    const ProgramPins* lines = nullptr;            ///< coolant and outputs of the machine; null: it has none
+    double tolerance_mm = 0.01;                    ///< of G64 without P
+    int chain_quarters = 3;                        ///< of P, for the chains of G64 without Q
+    double rapid_tolerance_mm = 0.1;               ///< between rapids
+    double max_feed_mm_s = 0.0;                    ///< of moves with a feed, along the linear axes; 0: none
+    std::uint32_t rotary_axes = 0;                 ///< bit k: axis k of the machine is rotary
+    std::vector<std::string> axes;                 ///< names: x, y, z, a, b, c
+    std::uint64_t most_moves = 0;                  ///< the program ends behind them; 0: all count
+    std::uint64_t runs = 1;                        ///< of a program that M99 ends
+    std::vector<std::string> subprogram_folders{}; ///< in the order of search; an empty text is the working one
+    std::optional<WorkOffsets> offsets{};          ///< of a state file
+    PerAxis<Position> start{};                     ///< where the machine stands, in its own coordinates
 };
 
 /// The names of --dialect.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -166,6 +167,9 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     choice_.method = "gcode";
     axes_ = machine.axes.empty() ? std::vector<std::string>{"x", "y", "z"} : machine.axes;
     GcodeSettings out = read_gcode_arguments(arguments.gcode);
+    if (reopens_ && path_ == arguments.input && arguments.name.empty()) { // others are beside nothing
+        out.subprogram_folders.insert(out.subprogram_folders.begin(), std::filesystem::path(path_).parent_path());
+    }
     out.simulated = use != PathUse::followed;
     out.tolerance_mm = tolerances_.programmed_mm;
     out.chain_quarters = tolerances_.rules.chain_quarters;

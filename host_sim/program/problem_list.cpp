@@ -16,7 +16,7 @@ std::string_view without_place(std::string_view text, std::uint64_t line) {
 
 } // namespace
 
-bool ProblemList::add(const InputError& error, std::uint64_t line, std::string_view cause) {
+bool ProblemList::add(const InputError& error, std::uint64_t line, std::string_view cause, std::string_view file) {
     const std::string_view key = cause.empty() ? without_place(error.what(), line) : cause;
     auto found = numbers_.find(key);
     if (found == numbers_.end()) {
@@ -26,14 +26,15 @@ bool ProblemList::add(const InputError& error, std::uint64_t line, std::string_v
             return true;
         }
         found = numbers_.emplace(key, causes_.size()).first;
-        causes_.push_back({error.what(), {}, 0});
-    }
-    if (!places_.emplace(line, found->second).second) {
-        return false;
+        causes_.push_back({error.what(), std::string(file), {}, 0});
     }
     Cause& of = causes_[found->second];
-    if (of.count > 0 && of.lines.size() < most_lines) {
-        of.lines.push_back(line);
+    const std::string place = file == of.file ? std::to_string(line) : fmt::format("{}:{}", file, line);
+    if (!places_.emplace(place, found->second).second) {
+        return false;
+    }
+    if (of.count > 0 && of.places.size() < most_places) {
+        of.places.push_back(place);
     }
     ++of.count;
     ++count_;
@@ -43,12 +44,12 @@ bool ProblemList::add(const InputError& error, std::uint64_t line, std::string_v
 std::vector<std::string> ProblemList::texts() const {
     std::vector<std::string> out;
     for (const Cause& cause : causes_) {
-        const std::uint64_t more = cause.count - 1 - cause.lines.size();
+        const std::uint64_t more = cause.count - 1 - cause.places.size();
         std::string text = cause.first;
-        for (std::size_t i = 0; i < cause.lines.size(); ++i) {
-            const bool is_last = more == 0 && i + 1 == cause.lines.size();
+        for (std::size_t i = 0; i < cause.places.size(); ++i) {
+            const bool is_last = more == 0 && i + 1 == cause.places.size();
             text += i == 0 ? (cause.count > 2 ? "; also on lines " : "; also on line ") : is_last ? " and " : ", ";
-            text += std::to_string(cause.lines[i]);
+            text += cause.places[i];
         }
         out.push_back(more > 0 ? fmt::format("{} and {} more", text, more) : text);
     }

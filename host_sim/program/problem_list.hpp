@@ -20,8 +20,9 @@ public:
 
     /// @param line  of the error; 0: none
     /// @param cause  what problems of one kind share; empty: the text of the error without its place
+    /// @param file  of the line: of one that is not that of the cause's first problem the name is told, too
     /// False: it is known, of a line that runs more than once.
-    bool add(const InputError& error, std::uint64_t line, std::string_view cause = {});
+    bool add(const InputError& error, std::uint64_t line, std::string_view cause = {}, std::string_view file = {});
 
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     /// Of all places.
@@ -30,17 +31,18 @@ public:
     [[nodiscard]] std::vector<std::string> texts() const;
 
 private:
-    static constexpr std::size_t most_lines = 3;
+    static constexpr std::size_t most_places = 3;
 
     struct Cause {
         std::string first;
-        std::vector<std::uint64_t> lines; // of the others, the first ones
+        std::string file;
+        std::vector<std::string> places; // of the others, the first ones
         std::uint64_t count = 0;
     };
 
     std::map<std::string, std::size_t, std::less<>> numbers_; // of causes
     std::vector<Cause> causes_;
-    std::set<std::pair<std::uint64_t, std::size_t>> places_; // lines and causes
+    std::set<std::pair<std::string, std::size_t>> places_; // and causes
     std::uint64_t count_ = 0;
     std::uint64_t untold_ = 0;
 };

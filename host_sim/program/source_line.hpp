@@ -13,9 +13,10 @@
 namespace splinefeed::host {
 
 struct SourceLine {
-    std::string text;         ///< without its end
-    std::uint64_t number = 0; ///< from 1
-    bool whole = true;        ///< false: a pipe ended within it, so the rest of it may be missing
+    std::string text;                  ///< without its end
+    std::uint64_t number = 0;          ///< from 1
+    bool whole = true;                 ///< false: a pipe ended within it, so the rest of it may be missing
+    const std::string* file = nullptr; ///< that it is of, if that is not the program's own
 };
 
 /// Why a line that is not whole was refused.

@@ -52,9 +52,9 @@ struct GcodeText {
     Text GcodeArguments::*value;
 };
 constexpr GcodeText gcode_texts[] = {
-    {"dialect", &GcodeArguments::dialect},
-    {"ignore", &GcodeArguments::ignore},
-    {"tools", &GcodeArguments::tools},
+    {"dialect", &GcodeArguments::dialect}, {"ignore", &GcodeArguments::ignore},
+    {"tools", &GcodeArguments::tools},     {"subprograms", &GcodeArguments::subprograms},
+    {"repeat", &GcodeArguments::repeat},
 };
 
 struct OtherText {

@@ -90,6 +90,29 @@ TEMPLATE_TEST_CASE("a corner between short lines uses its tolerance on less way"
     }
 }
 
+TEMPLATE_TEST_CASE("a rounder corner uses a large tolerance on little way", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    for (const Real degrees : {10.0L, 60.0L, 90.0L, 150.0L}) {
+        const MoveProgram program = corner(degrees, 10.0L, 10.0L, 0.1);
+        const auto moves = moves_of<S>(program);
+        const Joint<S> joint = joint_of<S>(program);
+        for (const Real share : {0.95L, 0.6L, 0.5L, 0.3L}) {
+            Blend<S> blend;
+            const Real way = share * exact(joint.way);
+            REQUIRE(fit_blend(joint, moves[0], moves[1], from_double<S>(static_cast<double>(way)), 2, blend,
+                              from_integer<S>(2)));
+            CurveSegment<S> segment;
+            segment.axes = 2;
+            segment.degree = 5;
+            segment.assign(blend.points);
+            const PlaceMm middle = place_of(segment, 0.5L);
+            const Real most = way * std::sin(degrees * degree / 2.0L) * 0.5L / 4096.0L; // as a parabola
+            CAPTURE(static_cast<double>(degrees), static_cast<double>(share));
+            CHECK(std::fabs(std::hypot(middle[0], middle[1]) / std::min(0.1L, most) - 1.0L) < 1e-3L);
+        }
+    }
+}
+
 TEMPLATE_TEST_CASE("what becomes of a joint depends on geometry and mode", "[blended_path]", double, float, Fixed) {
     using S = TestType;
     CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01)).kind == JointKind::through);

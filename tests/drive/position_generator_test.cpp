@@ -2,6 +2,7 @@
 #include "host_sim/drive/position_generator.hpp"
 
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ TEST_CASE("Position generator: speed 0 is a stop, and a slower one is braked to"
 }
 
 TEST_CASE("Position generator: at random, within its limits, the same in small steps, and at its target") {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = splinefeed_test::random_seed();
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto uniform = [&random](double low, double high) {

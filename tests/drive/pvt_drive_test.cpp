@@ -24,7 +24,7 @@ void feed_all(PvtBench& bench, const std::vector<PvtSegment>& segments, std::uin
 } // namespace
 
 TEST_CASE("PVT drive: random segments through the map are the document's cubics", "[drive][pvt]") {
-    const auto seed = std::random_device{}();
+    const auto seed = random_seed();
     INFO("seed " << seed);
     std::mt19937_64 random(seed);
     for (int round = 0; round < rounds(20); ++round) {
@@ -64,7 +64,7 @@ TEST_CASE("PVT drive: random segments through the map are the document's cubics"
 
 TEST_CASE("PVT drive: whatever is delivered twice, late, damaged or out of order, each segment is executed once",
           "[drive][pvt]") {
-    const auto seed = std::random_device{}();
+    const auto seed = random_seed();
     INFO("seed " << seed);
     std::mt19937_64 random(seed);
     for (int round = 0; round < rounds(20); ++round) {

@@ -69,7 +69,7 @@ TEST_CASE("PVT drive: it slows down to the end of its ring as the document says,
 }
 
 TEST_CASE("PVT drive: drives with the same contents stay together, however their time is cut", "[drive][pvt]") {
-    const auto seed = std::random_device{}();
+    const auto seed = random_seed();
     INFO("seed " << seed);
     std::mt19937_64 random(seed);
     for (int round = 0; round < rounds(15); ++round) {

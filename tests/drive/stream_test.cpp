@@ -187,7 +187,7 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
 TEST_CASE("Cyclic targets: no shaft jumps, whenever a target takes effect, if it does") {
     constexpr std::uint32_t interval_us = 2000;
     constexpr std::uint32_t period_us = 10'000;
-    const unsigned first = std::random_device{}();
+    const unsigned first = splinefeed_test::random_seed();
     for (unsigned seed = first; seed < first + static_cast<unsigned>(splinefeed_test::rounds(20)); ++seed) {
         INFO("seed " << seed);
         std::mt19937 random(seed);
@@ -248,7 +248,7 @@ TEST_CASE("Cyclic targets: a drive may have followed a target that nobody confir
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
     // With the first two a block comes late where the axis turns: the drive runs past its target, and comes back.
     std::vector<unsigned> seeds{4204865798U, 3208929336U};
-    const unsigned first = std::random_device{}();
+    const unsigned first = splinefeed_test::random_seed();
     for (unsigned i = 0; i < static_cast<unsigned>(splinefeed_test::rounds(100)); ++i) {
         seeds.push_back(first + i);
     }
@@ -338,7 +338,7 @@ TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the driv
 }
 
 TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears when it is known to") {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = splinefeed_test::random_seed();
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const DriveProfile profile = host::find_profile("leadshine-pr");

@@ -44,10 +44,11 @@ if [[ $cpu != cortex-m0 ]]; then
     has() { if arm-none-eabi-nm "$image" | grep "$1" >/dev/null; then echo 1; else echo 0; fi; }
     points=$(has SplinePoints)
     values=$(has 10Expression)
+    extends=$(has 10FanucWords)
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
         bound=$(find "$core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v jerk=$jerk -v operated=$operated -v points="$points" -v values="$values" -v root=$root -f tests/arm/stack.awk {} +)
+            -exec awk -v scalar=$scalar -v jerk=$jerk -v operated=$operated -v points="$points" -v values="$values" -v extends="$extends" -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done

@@ -5,6 +5,7 @@
 #include "splinefeed/s0_program/cycles/spline_points.hpp"
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
+#include "splinefeed/s0_program/words/fanuc_words.hpp"
 
 #include "fuzz/bytes.hpp"
 
@@ -70,11 +71,15 @@ void check_text(const ProgramEvent& event, const std::string& line) {
 }
 
 template <Scalar S>
-void run(std::string_view text, const ProgramSettings& settings, bool evaluates, bool obeys) {
+void run(std::string_view text, const ProgramSettings& given_settings, bool evaluates, bool obeys) {
     constexpr int most_items = 400'000; // of pecks and repeats; more would only take time
     Table table;
     Expression expression(table);
     SplinePoints<S> points;
+    std::array<WorkSystem, 3> further{};
+    FanucWords words(further);
+    ProgramSettings settings = given_settings;
+    settings.extension = settings.dialect == Dialect::fanuc && evaluates ? &words : nullptr;
     Interpreter<S> interpreter(settings, evaluates ? &expression : nullptr, &points);
     interpreter.start({});
     ProgramItem<S> item;
@@ -88,6 +93,9 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates,
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         const WorkOffsets offsets = interpreter.offsets();
         const ModalState modal = interpreter.modal();
+        const WorkSystem* const system = words.system();
+        const std::array<WorkSystem, 3> origins = further;
+        const bool moved = words.moves_program();
         std::vector<char> given(line.begin(), line.end()); // freed behind the call: nothing may refer to it then
         const BlockStatus status = interpreter.push({given.data(), given.size()}, ++number);
         if (!status.ok()) {
@@ -95,7 +103,8 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates,
                 fail("a place or an error that is none", line);
             }
             if (!(interpreter.offsets() == offsets) || !(interpreter.modal() == modal) ||
-                interpreter.position() != stands) {
+                interpreter.position() != stands || words.system() != system || further != origins ||
+                words.moves_program() != moved) {
                 fail("a refused line changed something", line);
             }
             if (obeys) {

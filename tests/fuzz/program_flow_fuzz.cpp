@@ -78,7 +78,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// @param problems  null: the first one ends the program
-void run(const std::vector<std::string>& text, ProblemList* problems, bool macros) {
+void run(const std::vector<std::string>& text, ProblemList* problems, bool macros, std::uint64_t times) {
     constexpr int most_steps = 4'000; // loops without an end would only take time
     TextLines lines(text);
     ParameterMemory parameters;
@@ -90,8 +90,9 @@ void run(const std::vector<std::string>& text, ProblemList* problems, bool macro
     Interpreter<double> interpreter(settings, &expression);
     interpreter.start({});
     variables.follow(interpreter);
-    ProgramFlow flow(lines, "p", expression, interpreter, parameters, problems,
-                     {.programs = macros ? NumberedPrograms::fanuc : NumberedPrograms::linuxcnc, .macros = macros});
+    ProgramFlow flow(
+        lines, "p", expression, interpreter, parameters, problems,
+        {.programs = macros ? NumberedPrograms::fanuc : NumberedPrograms::linuxcnc, .macros = macros, .runs = times});
     SourceLine line;
     ProgramItem<double> item;
     for (int steps = 0; steps < most_steps && !interpreter.has_ended(); ++steps) {
@@ -126,11 +127,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool as_text = (choices & 1U) != 0;
     const bool checks = (choices & 2U) != 0;
     const bool macros = (choices & 4U) != 0;
+    const std::uint64_t times = (choices & 8U) != 0 ? 3 : 1; // if M99 ends it
     const std::vector<std::string> lines = lines_of(
         as_text ? std::string(reinterpret_cast<const char*>(bytes.data), bytes.left) : text_of_parts(bytes, macros));
     ProblemList problems;
     try {
-        run(lines, checks ? &problems : nullptr, macros);
+        run(lines, checks ? &problems : nullptr, macros, times);
     } catch (const InputError& error) {
         problems.add(error, 0);
     }

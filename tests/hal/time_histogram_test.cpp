@@ -3,6 +3,7 @@
 
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ TEST_CASE("Time histogram: nothing was measured") {
 }
 
 TEST_CASE("Time histogram: shares to a quarter of an octave, whatever the values") {
-    const auto seed = std::random_device{}();
+    const auto seed = splinefeed_test::random_seed();
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> log2_us(0.0, 22.0);

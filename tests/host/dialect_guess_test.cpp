@@ -40,6 +40,7 @@ TEST_CASE("Words that one controller alone has decide") {
     CHECK(guess("%\nO1000\nG28 U0 W0").dialect() == Dialect::fanuc);
     CHECK(guess("%\nO1000 (NAME)\nG4 P2").dialect() == Dialect::fanuc);
     CHECK(guess("O1000\nG154 P2 X0").dialect() == Dialect::fanuc);
+    CHECK(guess("%\n:0097\nG0 X5").dialect() == Dialect::fanuc);
     CHECK(guess("IF [#1 EQ #0] GOTO 10\n#2 = #1").dialect() == Dialect::fanuc);
     CHECK(guess("T0101\nG0 X5").dialect() == Dialect::fanuc);
     CHECK(guess("G28 X Y\nG1 X5").dialect() == Dialect::marlin);
@@ -51,7 +52,24 @@ TEST_CASE("Words that one controller alone has decide") {
         CHECK(guess("#1=[1]\nG64 P0.01\n" + std::string(line)).dialect() == Dialect::fanuc);
     }
     CHECK(guess("IF R1==5 GOTOF A\n#1=[1]").dialect() == Dialect::linuxcnc);
+    CHECK(guess("_Contour_Setup(\"SHAFT\",3)\nG0 X5").dialect() == Dialect::linuxcnc); // of Siemens
+    CHECK(guess("START_PRINT (now)").dialect() == Dialect::klipper);
+    CHECK(guess("M2000;line mode\nG21").dialect() == Dialect::marlin);
+    CHECK(guess("M888 P0\nG21").dialect() == Dialect::marlin);
     CHECK(guess("o<a> sub\no<a> endsub\nG1 X[1+2]").dialect() == Dialect::linuxcnc);
+}
+
+TEST_CASE("What LinuxCNC refuses tells another one, where nothing else does") {
+    CHECK(guess("G21 G90\nG53 G0 Z-5\nX10").dialect() == Dialect::linuxcnc); // G0 is in effect
+    CHECK(guess("G21 G90 G54\nN5 Z10\nG0 X5").dialect() == Dialect::grbl);
+    CHECK(guess("G21\nG0 X1\nG81 X1 Z-1 R1\nG80\nZ10.").dialect() == Dialect::fanuc);
+    CHECK(guess("G21\nG0 X1\nG81 X1 Z-1 R1\nG80\nG0 Z10.\nX5").dialect() == Dialect::linuxcnc);
+    CHECK(guess("G21\nM104 S5\nZ10").dialect() == Dialect::marlin);
+    CHECK(guess("G1 X5 F5\nG2 X5 Y0 I1 J0 K0").dialect() == Dialect::grbl);
+    CHECK(guess("G1 X5 F5\nG2 X5 Y0 Z1 I1 J0").dialect() == Dialect::linuxcnc);
+    CHECK(guess("(EMC2)\nG2 X5 Y0 I1 J0 K0\nG80\nZ5").dialect() == Dialect::linuxcnc);
+    CHECK(guess("(replace (cut)\nG1 X5 F60").dialect() == Dialect::grbl);
+    CHECK(guess("(a)(b)\nG1 X5 F60").dialect() == Dialect::linuxcnc);
 }
 
 TEST_CASE("Without evidence it is linuxcnc") {

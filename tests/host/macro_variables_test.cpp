@@ -108,7 +108,7 @@ TEST_CASE("#500 to #999 have no value until the program sets it") {
 TEST_CASE("Variables of the control cannot be set, and others do not exist") {
     Program program;
     for (const char* line : {"#4001=1", "#5001=1", "#5041=1", "#3003=1", "#3000=1", "#1100=1", "#1=#3001", "#1=#2001",
-                             "#1=#5201", "#1=#7001", "#1=#100000"}) {
+                             "#1=#5201", "#1=#5400", "#1=#5405", "#1=#5428", "#1=#7001", "#1=#100000"}) {
         CAPTURE(line);
         CHECK(program.push(line) == ProgramError::parameter_refused);
     }

@@ -54,27 +54,37 @@ template <Scalar S>
 void require_kept(const ElementProgram& program, int axes, double joint_mm) {
     TolerancePath<S> path(axes, {from_double<S>(joint_mm)});
     PathDeviation deviation(machine_of(axes, std::min(axes, 3)), joint_mm, std::same_as<S, float> ? 1e-6 : 0.0);
+    PathDeviation told = deviation; // it leaves nothing out
+    told.tell([](std::uint64_t, double) {});
     REQUIRE(path.start(program.start()).ok());
     deviation.start(program.start());
+    told.start(program.start());
     CurveSegment<S> segment;
     std::size_t pushed = 0;
     for (Pull pull = Pull::starved; pull != Pull::finished;) {
         pull = path.next(segment);
         if (pull == Pull::item) {
             deviation.segment(in_double(segment));
+            told.segment(in_double(segment));
         } else if (pull == Pull::starved && pushed < program.moves()) {
             const PathElement<double> move = program.element(pushed);
             CAPTURE(pushed);
             const Status status = path.push(element_cast<S>(move));
             CAPTURE(describe(status.error()));
             CHECK(status.ok());
-            deviation.move(move, 0);
+            deviation.move(move, pushed);
+            told.move(move, pushed);
             ++pushed;
         } else if (pull == Pull::starved) {
             static_cast<void>(path.finish());
         }
     }
     deviation.finish();
+    told.finish();
+    CHECK(deviation.linear().distance == told.linear().distance);
+    CHECK(deviation.linear().line == told.linear().line);
+    CHECK(deviation.rotary().distance == told.rotary().distance);
+    CHECK(deviation.rotary().line == told.rotary().line);
     if (const auto& excess = deviation.excess()) {
         const std::uint32_t element = program.element_of(excess->place.move);
         FAIL_CHECK(describe(*excess, element_name(element, 0))

@@ -32,6 +32,18 @@ TEST_CASE("A cause is told once, with the lines of the others") {
     CHECK(list.count() == 12);
 }
 
+TEST_CASE("Lines of another file than that of the first problem name it") {
+    ProblemList list;
+    const auto add_of = [&](const std::string& file, std::uint64_t line) {
+        return list.add({file, line, "no such axis"}, line, {}, file);
+    };
+    CHECK(add_of("sub.ngc", 3));
+    CHECK(add_of("part.ngc", 3));
+    CHECK(add_of("sub.ngc", 7));
+    CHECK_FALSE(add_of("sub.ngc", 3));
+    CHECK(list.texts() == std::vector<std::string>{"sub.ngc:3: no such axis; also on lines part.ngc:3 and 7"});
+}
+
 TEST_CASE("That causes are too many is said") {
     ProblemList list;
     for (std::uint64_t line = 1; line <= ProblemList::most_causes + 5; ++line) {

@@ -216,3 +216,14 @@ TEST_CASE("All problems are told, and the other lines run") {
     CHECK(run("WHILE [1/0] DO1\nG0 X1\nEND1\nX2\n#3000=1\nX3", &loops) == " 1 2 end");
     CHECK(loops.texts().size() == 2);
 }
+
+TEST_CASE("A / before an O word leaves its line out, or says nothing") {
+    const std::string program = "G0 X1\n/o1 if [0]\nX2\n/ O1 endif\n/N5 o2 repeat [3]\nG91 X1\n/N6 o2 endrepeat\nX1";
+    CHECK(run(program) == " 1 2 3 4 5");
+    CHECK(run(program, nullptr, {.block_delete = true}) == " 1 2 3 4");
+}
+
+TEST_CASE("A colon before the number of a program is an O") {
+    CHECK(run(":1\nG0 X1\nM98 P20\nX5\nM30\n:0020\nX2\nM99\n:30\nX9\nM99") == " 1 2 5");
+    CHECK(run("G0 X1\n:20 X5").find("line 2") != std::string::npos);
+}

@@ -244,7 +244,8 @@ TEST_CASE("A subprogram may stand behind its call, and behind the end of the pro
           " 5 9 1 3 end");
     CHECK(run("o1 repeat [2]\no2 call\no1 endrepeat\no2 sub\nG91 G0 X1\no2 endsub\nX5") == " 1 2 7");
     CHECK(run("o1 call\nG0 X1\no2 sub\no2 endsub") ==
-          "p.ngc:1:2: there is no subprogram o1 in this file; those of other files are not read");
+          "p.ngc:1:2: there is no subprogram o1 in this program; there is no folder to look for 1.ngc in; "
+          "--subprograms states some");
     CHECK(run("o1 call\nM2\no1 sub\no3 endif\no1 endsub") ==
           "p.ngc:4:2: o3 has no begin; what is open here is o1 of line 3");
 }
@@ -281,7 +282,8 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
         CHECK(run("M98 P1\nM30\no1\nG0 X1\nM30\nM99", programs) == " 1 end"); // M30 ends all
         CHECK(run("M98 P1\nM30\n%\nO0001\nG0 X4\nM99\n%", programs) == " 4 end");
         CHECK(run("M98 P7" + sub, programs) ==
-              "p.ngc:1:6: there is no subprogram O7 behind this line; those of other files are not read");
+              std::string("p.ngc:1:6: there is no subprogram O7 behind this line; there is no folder to look for ") +
+                  (programs == NumberedPrograms::fanuc ? "O0007.nc" : "7.ngc") + " in; --subprograms states some");
         CHECK(run("M98 P1\nM30\no1\nG0 X1", programs) ==
               "p.ngc:3:1: the subprogram that begins here has no M99 at its end");
         CHECK(run("M98 P1\nM30\no1\nM98 P1\nM99", programs) == "p.ngc:4:6: calls are nested more than 30 deep");
@@ -337,9 +339,11 @@ TEST_CASE("What is wrong with calls is collected, and the program goes on") {
               {NumberedPrograms::linuxcnc}) == " 1 3 2 end");
     CHECK(problems.texts() ==
           std::vector<std::string>{
-              "p.ngc:1:6: there is no subprogram O5 behind this line; those of other files are not read",
+              "p.ngc:1:6: there is no subprogram O5 behind this line; there is no folder to look for 5.ngc in; "
+              "--subprograms states some",
               "p.ngc:8:2: o1 has no begin",
-              "p.ngc:9:6: there is no subprogram O7 behind this line; those of other files are not read",
+              "p.ngc:9:6: there is no subprogram O7 behind this line; there is no folder to look for 7.ngc in; "
+              "--subprograms states some",
               "p.ngc:4:1: M99 ends a subprogram that M98 has called; the main program, which M30 ends, stands first"});
 }
 
@@ -355,4 +359,22 @@ TEST_CASE("M99 ends a main program, which controls would begin again") {
     }
     CHECK(run("G0 X1 M99", NumberedPrograms::fanuc) == " 1 end");
     CHECK(run("G0 X1\n(M30)\n/M99\n; M2", NumberedPrograms::fanuc) == " 1 end");
+}
+
+TEST_CASE("A main program that M99 ends runs as often as is stated") {
+    for (const NumberedPrograms programs : {NumberedPrograms::linuxcnc, NumberedPrograms::fanuc}) {
+        const auto runs = [&](const std::string& text, std::uint64_t times) {
+            return run(text, nullptr,
+                       {.programs = programs, .macros = programs == NumberedPrograms::fanuc, .runs = times});
+        };
+        CHECK(runs("G91 G0 X1\nM99", 1) == " 1 end");
+        CHECK(runs("%\no1\nG91 G0 X1\nM98 P2\nM99\nO2\nX10\nM99\n%", 3) == " 1 11 12 22 23 33 end");
+        CHECK(runs("o5 if [1]\nG91 G0 X1\nM99\no5 endif\nX3", 2) == " 1 2 end"); // from within a block
+        CHECK(runs("o5 sub\nG0 X#1\no5 endsub\nG91\no5 call [3]\n(M2)\nM99", 2) == " 3 6 end");
+        CHECK(runs("G91 G0 X1\nM30", 3) == " 1 end");
+    }
+    // What stands beside it is executed before; M99 P goes on without counting.
+    const FlowRules fanuc{.programs = NumberedPrograms::fanuc, .macros = true, .runs = 2};
+    CHECK(run("G91 G0 X1\nX5 M99", nullptr, fanuc) == " 1 6 7 12 end");
+    CHECK(run("#1=0\nG91 G0 X1\nN5 #1=[#1+1]\nIF [#1 LT 3] GOTO 5\nX#1\nM99", nullptr, fanuc) == " 1 4 5 8 end");
 }

@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 
+from fanuc_coordinates import WORDS as PLACING, Coordinates, Unclear
+
 DIALECTS = ("linuxcnc", "grbl", "fanuc", "marlin")
 MACHINE = "[path]\nmax_feed_mm_s = 100\n" + "".join(
     f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n' for axis in "xyz") + (
@@ -54,9 +56,13 @@ class Reader:
         self.steps, self.inches, self.to_r = False, False, False
         self.feed, self.feed_in_inches = (1500.0 if dialect == "marlin" else 0.0), False
         self.ended = False
+        self.fanuc = Coordinates()  # nothing of it applies elsewhere
 
     def offset(self, axis):
-        return self.work[self.system][axis] + self.shift[axis]
+        return (self.fanuc.origin() or self.work[self.system])[axis] + self.shift[axis]
+
+    def program(self):
+        return self.fanuc.programmed({axis: self.at[axis] - self.offset(axis) for axis in AXES})
 
     def mm(self, axis, value):
         return value * 25.4 if self.inches and axis != "A" else value
@@ -64,6 +70,7 @@ class Reader:
     def go(self, kind, end, angle=None):
         way = {axis: end[axis] - self.at[axis] for axis in AXES}
         space = math.hypot(way["X"], way["Y"], way["Z"])
+        space = space if space > 1e-9 else 0.0
         if angle is not None:
             space = math.hypot(angle[0] * angle[1], way["Z"])
         turn = abs(way["A"])
@@ -76,21 +83,23 @@ class Reader:
         self.at = dict(end)
 
     def target(self, words):
-        end = dict(self.at)
+        end, moved = self.program(), False
         for axis in AXES:
             step = "UVW-"["XYZA".index(axis)]
             if self.dialect == "fanuc" and step in words:
                 if axis in words:
                     raise NotUnderstood("twice")
                 end[axis] += self.mm(axis, words[step])
+                moved = True
             elif axis in words:
-                end[axis] = self.mm(axis, words[axis]) + (self.at[axis] if self.steps else self.offset(axis))
-        return end
+                end[axis] = self.mm(axis, words[axis]) + (end[axis] if self.steps else 0.0)
+                moved = True
+        return {axis: value + self.offset(axis) for axis, value in self.fanuc.placed(end).items()} if moved else dict(self.at)
 
     def hole(self, words):
         cycle = self.cycle
         end = self.target({letter: value for letter, value in words.items() if letter in "XY"})
-        cleared, bottom = cycle["R"] + self.offset("Z"), cycle["Z"] + self.offset("Z")
+        cleared, bottom = (cycle[word] + self.offset("Z") + self.fanuc.local["Z"] for word in "RZ")
         if cleared < bottom:
             raise NotUnderstood("below")
         if self.level < cleared:
@@ -140,7 +149,7 @@ class Reader:
             raise NotUnderstood("no radius")
         end = self.target(words)
         way = math.hypot(end["X"] - self.at["X"], end["Y"] - self.at["Y"])
-        radius = self.mm("X", words["R"])
+        radius = self.mm("X", words["R"]) * self.fanuc.factor
         if way > 2.0 * radius or way < 1e-6:
             raise NotUnderstood("radius")
         self.go("arc", end, (radius, 2.0 * math.asin(0.5 * way / radius)))
@@ -176,7 +185,17 @@ class Reader:
             self.ended = self.ended or code in (2, 30)
         self.block(codes, words, text.upper())
 
+    def place(self, codes, words, text):
+        """Words of coordinates, in fanuc."""
+        stated = {axis: self.mm(axis, words[axis]) for axis in AXES if axis in words}
+        try:
+            self.fanuc.read(codes, words, stated, self.program(), text)
+        except Unclear as why:
+            raise NotUnderstood(text) from why
+
     def block(self, codes, words, text):
+        placing = [code for code in codes if code in PLACING] if self.dialect == "fanuc" else []
+        codes = [code for code in codes if code not in placing]
         modes = {17, 20, 21, 90, 91, 94, 98, 99, 54, 55}
         motions = [code for code in codes if code in (0, 1, 2, 3, 5, 73, 80, 81, 82, 83)]
         others = [code for code in codes if code in (4, 10, 28, 52, 92)]
@@ -192,18 +211,26 @@ class Reader:
         self.steps = 91 in codes or (self.steps and 90 not in codes)
         self.to_r = 99 in codes or (self.to_r and 98 not in codes)
         self.system = 0 if 54 in codes else 1 if 55 in codes else self.system
+        if 54 in codes or 55 in codes:
+            self.fanuc.system = None
+        self.place(placing, words, text)
         has_axes = set(words) & set(AXES + ("UVW" if self.dialect == "fanuc" else ""))
         if 4 in others:
             self.dwells.append(self.dwell(words, text))
         elif 28 in others:
             self.reference(codes, words)
         elif 10 in others:
-            system = self.work[int(words["P"]) - 1 if words["P"] > 0 else self.system]
-            system.update({axis: self.mm(axis, words[axis]) for axis in AXES if axis in words})
+            if words["L"] == 20 and self.dialect != "fanuc":
+                raise NotUnderstood("where it stands")
+            system = (self.fanuc.further.setdefault(int(words["P"]), dict.fromkeys(AXES, 0.0)) if words["L"] == 20
+                      else self.work[int(words["P"]) - 1 if words["P"] > 0 else self.system])
+            adds = self.steps and self.dialect == "fanuc"
+            system.update({axis: self.mm(axis, words[axis]) + (system[axis] if adds else 0.0) for axis in AXES if axis in words})
         elif 52 in others or 92 in others:
             for axis in set(words) & set(AXES):
                 value = self.mm(axis, words[axis])
-                self.shift[axis] = value if 52 in others else self.at[axis] - self.work[self.system][axis] - value
+                self.fanuc.local[axis] = 0.0
+                self.shift[axis] = value if 52 in others else self.at[axis] - (self.fanuc.origin() or self.work[self.system])[axis] - value
         elif motions == [5] and self.dialect == "marlin" and not set(words) - {"F"}:
             pass
         elif motions and motions[0] >= 73 and motions[0] != 80:
@@ -259,6 +286,13 @@ def random_program(numbers, dialect):
                   lambda: f"G4 P{numbers.randint(1, 2000)}", lambda: "G0 G91 G28 Z0\nG90", lambda: "T1 M6", lambda: f"G80\nZ{near()}",
                   lambda: f"G90 G98 G83 X{near()} Z-3. R1. Q2. P{numbers.randint(1, 900)} F90.\nG80",
                   lambda: f"G90 G98 G81 X{near()} Y{near()} Z-3. R1. F90. {numbers.choice('LK')}0\nX{near()}\nG80"]
+        shape = lambda: f"G90 G0 X{near()} Y{near()}\nG1 X{near()} F600.\nG2 X{near()} Y{near()} R90.\nG91 G1 Y{near()}\nG90"
+        lines += [lambda: f"G10 L20 P{numbers.randint(1, 3)} X{near()} Z{near()}", lambda: f"G91 G10 L{numbers.choice((2, 20))} P1 Y{near()}\nG90",
+                  lambda: f"G54.1 P{numbers.randint(1, 3)}", lambda: f"G{numbers.randint(110, 112)}", lambda: f"G154 P{numbers.randint(1, 3)} G0 X{near()}", lambda: f"G90 G52 X{near()} Y{near()}",
+                  lambda: "G90 G52 X0 Y0 Z0", lambda: "G69", lambda: "G50", lambda: "G50.1 X0 Y0",
+                  lambda: f"G68 X{near()} Y{near()} R{near(180)}\n{shape()}\nG69\n{shape()}", lambda: f"G90 G68 R{near(180)}\n{shape()}\nG69",
+                  lambda: f"G51 X{near()} Y{near()} P{some(0.2, 4)}\n{shape()}\nG50\n{shape()}", lambda: f"G51 P1.5\nG68 X1. Y2. R30.\n{shape()}\nG69\nG50",
+                  lambda: f"G90 G51.1 {numbers.choice('XY')}{near()}\n{shape()}\nG50.1 X0 Y0\n{shape()}", lambda: f"G68 X0 Y0 R45.\n{hole()}\nG69"]
     if dialect == "marlin":
         lines += [lambda: f"G4 P{numbers.randint(1, 2000)}", lambda: f"G4 S{some(0.1, 2)}", lambda: "G28 Z P0 T140", lambda: "G28 X0", lambda: "G28",
                   lambda: "G5", lambda: "M104 S200", lambda: "M83", lambda: f"G1 X{near()} E1.5 F{some(100, 3000)}", lambda: "G92 E0"]

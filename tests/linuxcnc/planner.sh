@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # LinuxCNC with splinefeed_tp.so, headless and simulated: limits, ends and steering, at 1 ms and 0.25 ms, with and without a jerk limit, with planning starved in
-# a tenth of the periods. Single step. Threads and taps that follow a spindle.
+# a tenth of the periods. Single step. Reverse run. Threads and taps that follow a spindle.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 need linuxcnc unshare setpriv /usr/bin/python3
@@ -17,7 +17,8 @@ bench() { /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/program.ngc --che
 bench --planner stock,module
 bench --planner stock,module --inch
 bench --planner module --period 250
-bench --planner stock,module --mode G64 --parameters tolerance_um=0
+bench --planner stock,module --mode G64
+bench --planner module --mode G64 --parameters tolerance_um=50
 /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_Z.MAX_VELOCITY=200000 --set AXIS_Z.MAX_ACCELERATION=20000000
 /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/refused.ngc --check --planner module --set AXIS_X.MAX_ACCELERATION=0.05 \
     --refused "max_acceleration_mm_s2 must lie between 0.1 and 1000000"
@@ -26,5 +27,6 @@ bench --planner stock,module --mode G64 --parameters tolerance_um=0
 for jerk in 0 30000; do
     /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/indexer.ngc --check --planner module --indexer --jerk "$jerk"
     /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/steps.ngc --check --planner module --step --jerk "$jerk"
+    /usr/bin/python3 bench/linuxcnc_tp.py tests/linuxcnc/back.ngc --check --planner module --back --jerk "$jerk"
     bench --planner module --jerk "$jerk" --steer 1 --runs 3 --starve 10
 done

@@ -101,7 +101,7 @@ public:
     }
     [[nodiscard]] const tpc_figures& figures() const { return motion_->figures(); }
 
-    tpc_input input{1.0, 1.0, 1e6, 0, 0, 0, 0};
+    tpc_input input{1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
     tpc_output out{};
     std::vector<std::array<double, 3>> places;
     bool aborted = false; // at any time

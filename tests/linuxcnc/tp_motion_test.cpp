@@ -70,7 +70,7 @@ TEST_CASE("whatever an operator does, and however late planning is, all limits a
             control.period();
         }
         starved = false;
-        control.input = {1.0, 1.0, 1e6, 0, control.input.abort, 0, 0};
+        control.input = {1.0, 1.0, 1e6, 0, control.input.abort, 0, 0, 0};
         control.until_over();
         CHECK(control.use() <= 1.0001);
         CHECK(control.figures().late == 0);
@@ -149,7 +149,7 @@ TEST_CASE("without a tolerance corners are as fast as they can be, and short lin
         CHECK(control.use() <= 1.0001);
         return static_cast<double>(control.places.size()) * 0.001;
     };
-    CHECK(seconds(TPC_MOST_TOLERANCE, 0.05) < 0.8 * seconds(0.05, 0.0));
+    CHECK(seconds(TPC_MOST_TOLERANCE, 0.05) < 0.65 * seconds(0.05, 0.0)); // 0.69 with blends that are less round
 
     Control control(machine_of(3, 0.001, 0.0));
     constexpr int chords = 360;

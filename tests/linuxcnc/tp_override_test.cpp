@@ -12,11 +12,11 @@ TEST_CASE("the motion follows override, slider and hold at once, while it probes
         double speed; // mm/s, where 50 are programmed, or as fast as the axis can
     };
     for (const Order& order :
-         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0, 0}, 80.0},
-          Order{false, {1.0, 1.0, 20.0, 0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0, 0}, 0.0},
-          Order{false, {1.0, 1.0, 1e6, 1, 0, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0, 0}, 0.0},
-          Order{true, {0.1, 0.5, 1e6, 0, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0, 0}, 30.0},
-          Order{true, {1.0, 1.0, 1e6, 1, 0, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0, 0}, 0.0}}) {
+         {Order{false, {0.5, 0.1, 1e6, 0, 0, 0, 0, 0}, 25.0}, Order{false, {1.6, 1.0, 1e6, 0, 0, 0, 0, 0}, 80.0},
+          Order{false, {1.0, 1.0, 20.0, 0, 0, 0, 0, 0}, 20.0}, Order{false, {1.0, 1.0, 0.0, 0, 0, 0, 0, 0}, 0.0},
+          Order{false, {1.0, 1.0, 1e6, 1, 0, 0, 0, 0}, 0.0}, Order{false, {0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, 0.0},
+          Order{true, {0.1, 0.5, 1e6, 0, 0, 0, 0, 0}, 50.0}, Order{true, {2.0, 1.0, 30.0, 0, 0, 0, 0, 0}, 30.0},
+          Order{true, {1.0, 1.0, 1e6, 1, 0, 0, 0, 0}, 0.0}, Order{true, {0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, 0.0}}) {
         for (const double jerk : {0.0, 30'000.0}) {
             double until_slower_s[2] = {};
             for (const bool probes : {false, true}) {
@@ -39,7 +39,7 @@ TEST_CASE("the motion follows override, slider and hold at once, while it probes
                 control.input = order.input;
                 run(250);
                 CHECK(control.out.speed == Approx(order.speed).margin(1e-6));
-                control.input = {1.0, 1.0, 1e6, 0, 0, 0, 0};
+                control.input = {1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
                 control.until_over();
                 CHECK(control.out.position[0] == 80.0);
                 CHECK(control.use() <= 1.0001);
@@ -59,7 +59,7 @@ TEST_CASE("overrides are for moves of their kind, and the slider is not for rota
     tpc_move turn = line_to(80.0, 0.0, 100.0);
     turn.to[3] = 40.0; // degrees
     REQUIRE(control.add(turn) == 0);
-    control.input = {0.5, 0.25, 20.0, 0, 0, 0, 0};
+    control.input = {0.5, 0.25, 20.0, 0, 0, 0, 0, 0};
     double fastest[3] = {};
     double x = 0.0;
     double a = 0.0;
@@ -74,7 +74,7 @@ TEST_CASE("overrides are for moves of their kind, and the slider is not for rota
             control.input.max_feed = 1e6;
         }
         if (move == 1 && x > 60.0) {
-            control.input = {1.0, 1.0, 20.0, 0, 0, 0, 0};
+            control.input = {1.0, 1.0, 20.0, 0, 0, 0, 0, 0};
         }
     }
     CHECK(fastest[0] == Approx(25.0).epsilon(1e-3));
@@ -99,18 +99,43 @@ TEST_CASE("a feed that changes in every period is followed", "[linuxcnc]") {
     }
 }
 
+TEST_CASE("noise of the feed in every period costs at most 1 %", "[linuxcnc]") {
+    for (const double jerk : {0.0, 30'000.0}) {
+        for (const bool smooth : {false, true}) { // corners, or a curve that is travelled at the feed
+            std::size_t periods[2] = {};
+            for (const double noise : {0.0, 0.1}) {
+                Control control(machine_of(3, 0.001, jerk));
+                for (int i = 1; i <= (smooth ? 400 : 25); ++i) {
+                    const double a = 0.02 * i;
+                    REQUIRE(control.add(smooth ? line_to(30.0 * std::sin(a), 20.0 * std::sin(1.7 * a), 100.0)
+                                               : line_to(3.0 * i, 8.0 * (i % 2), 30.0)) == 0);
+                }
+                for (int n = 0; control.out.first != control.out.last && n < 100'000; ++n) {
+                    control.input.ratio = 0.9 + noise * (7919 * n % 201 - 100) / 100.0;
+                    control.period();
+                }
+                REQUIRE(control.out.first == control.out.last);
+                CHECK(control.use() <= 1.0001);
+                periods[noise > 0.0 ? 1 : 0] = control.places.size();
+            }
+            CAPTURE(jerk, smooth, periods[0]);
+            CHECK(static_cast<double>(periods[1]) < 1.01 * static_cast<double>(periods[0]));
+        }
+    }
+}
+
 TEST_CASE("a feed that is on and off in turn, from period to period, moves the machine with its mean", "[linuxcnc]") {
     for (const double jerk : {0.0, 30'000.0}) {
         for (const double period_s : {0.001, 0.00025}) {
-            for (const auto& off : {tpc_input{0.0, 1.0, 1e6, 0, 0, 0, 0}, tpc_input{0.05, 1.0, 1e6, 0, 0, 0, 0},
-                                    tpc_input{1.0, 1.0, 0.0, 0, 0, 0, 0}, tpc_input{1.0, 1.0, 1e6, 1, 0, 0, 0}}) {
+            for (const auto& off : {tpc_input{0.0, 1.0, 1e6, 0, 0, 0, 0, 0}, tpc_input{0.05, 1.0, 1e6, 0, 0, 0, 0, 0},
+                                    tpc_input{1.0, 1.0, 0.0, 0, 0, 0, 0, 0}, tpc_input{1.0, 1.0, 1e6, 1, 0, 0, 0, 0}}) {
                 for (const int half : {1, 3}) { // periods
                     Control control(machine_of(3, period_s, jerk));
                     REQUIRE(control.add(line_to(40.0, 0.0, 50.0)) == 0);
                     REQUIRE(control.add(line_to(40.0, 30.0, 50.0)) == 0);
                     int periods = 0;
                     while (control.out.first != control.out.last && periods * period_s < 5.0) {
-                        control.input = periods++ / half % 2 == 1 ? off : tpc_input{1.0, 1.0, 1e6, 0, 0, 0, 0};
+                        control.input = periods++ / half % 2 == 1 ? off : tpc_input{1.0, 1.0, 1e6, 0, 0, 0, 0, 0};
                         control.period();
                     }
                     CAPTURE(jerk, period_s, off.ratio, off.max_feed, off.hold, half);

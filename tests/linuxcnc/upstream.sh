@@ -21,5 +21,5 @@ cmake --build "$build" --target splinefeed_tp >>"$build.log" || { tail -20 "$bui
 module=$build/linuxcnc/splinefeed_tp.so
 failed=0
 /usr/bin/python3 tests/linuxcnc/upstream.py "$tree" "$module" || failed=1
-/usr/bin/python3 tests/linuxcnc/upstream_programs.py "$tree" "$module" --lines 200 --parameters tolerance_um=0 --slower 12 || failed=1
+/usr/bin/python3 tests/linuxcnc/upstream_programs.py "$tree" "$module" --lines 200 --slower 6 || failed=1
 exit "$failed"

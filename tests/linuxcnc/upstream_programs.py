@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """LinuxCNC's programs of circular arcs, with its planner and with splinefeed_tp.so.
 
-  tests/linuxcnc/upstream_programs.py TREE MODULE [--only NAME]... [--lines 1500] [--parameters "tolerance_um=0"] [--slower 12] [--jobs 2]
+  tests/linuxcnc/upstream_programs.py TREE MODULE [--only NAME]... [--lines 1500] [--parameters "tolerance_um=50"] [--slower 6] [--jobs 2]
 
 Those of TREE/tests/trajectory-planner/circular-arcs/nc_files that have at most so many lines, but those of the spindle, which
 bench/linuxcnc_spindle.py judges. Each axis has 100 mm/s and 1000 mm/s^2; path modes are the program's own. The module must keep every

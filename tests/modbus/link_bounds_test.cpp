@@ -4,6 +4,7 @@
 
 #include "scripted_peer.hpp"
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 
 #include <random>
 
@@ -112,8 +113,7 @@ TEST_CASE("Link: a serial line that is an answer behind is brought back") {
 
 TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, up to 250 ms after the time-out") {
     constexpr int readings = 30;
-    const char* const given = std::getenv("SPLINEFEED_SEED");
-    const auto seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : std::random_device{}();
+    const unsigned seed = splinefeed_test::random_seed();
     CAPTURE(seed);
     std::minstd_rand random(seed);
     std::atomic<int> asked{0};

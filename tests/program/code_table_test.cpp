@@ -65,6 +65,10 @@ TEST_CASE("what changes the path, its place or the order of blocks is not left o
         {Dialect::fanuc, {'M', 1980}, "M198 P100", ProgramError::macro_unsupported},
         {Dialect::fanuc, {'G', 120}, "G12 I5 F60", ProgramError::pocket_unsupported},
         {Dialect::grbl, {'G', 520}, "G52 X1", ProgramError::not_in_dialect},
+        {Dialect::linuxcnc, {'M', 250}, "M25 G49", ProgramError::m_code_unknown}, // Centroid's, which retracts
+        {Dialect::fanuc, {'M', 260}, "M26", ProgramError::m_code_unknown},
+        {Dialect::grbl, {'M', 910}, "M91 X Y", ProgramError::m_code_unknown},
+        {Dialect::linuxcnc, {'M', 920}, "M92", ProgramError::m_code_unknown},
         {Dialect::marlin, {'M', 8080}, "M808 L3", ProgramError::printer_flow_unsupported},
         {Dialect::marlin, {'M', 6220}, "M622 J1", ProgramError::printer_flow_unsupported},
         {Dialect::marlin, {'M', 8100}, "M810 G1 X5", ProgramError::printer_flow_unsupported},

@@ -48,7 +48,7 @@ TEST_CASE("numbers are read exactly", "[program][decimal]") {
 }
 
 TEST_CASE("every decimal of nine digits is read as itself", "[program][decimal]") {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = random_seed();
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     for (int i = 0; i < rounds(20000); ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("every decimal of nine digits is read as itself", "[program][decimal]"
 TEST_CASE("decimals become positions rounded once", "[program][decimal]") {
     CHECK(to_position({Decimal::one}).raw == std::int64_t{1} << 40);
     CHECK(to_position({-Decimal::one / 2}).raw == -(std::int64_t{1} << 39));
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = random_seed();
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     for (int i = 0; i < rounds(20000); ++i) {

@@ -307,3 +307,52 @@ TEST_CASE("words that are left out take their axis words along", "[program][dial
     CHECK(run.text("G30 A0\nG92 A5") == "");                                    // no other axis is meant
     CHECK(words.all == "G28;G43;M777;A0;A5;");
 }
+
+TEST_CASE("in fanuc Z and R of a cycle stay for another one, until something else ends the series",
+          "[program][dialects][cycle]") {
+    const std::string begin = "G0 Z12 F1800\nG99 G81 X10 Z-4 R1\n";
+    const std::string holes = text(Dialect::fanuc, begin + "G83 X20 Q3\nG82 X30 R2 P500");
+    CHECK(holes.find("rapid 20 0 1\nfeed 20 0 -2\nrapid 20 0 1\nrapid 20 0 -1.746\nfeed 20 0 -4\nrapid 20 0 1\n"
+                     "rapid 30 0 2\nfeed 30 0 -4\ndwell 0.5\nrapid 30 0 2") != std::string::npos);
+    CHECK(error(Dialect::fanuc, begin, "G83 X20") == ProgramError::cycle_peck_invalid);
+    CHECK(error(Dialect::fanuc, begin, "G82 X20") == ProgramError::cycle_dwell_missing);
+    for (const char* const end : {"G80", "G0 X1", "G1 X1"}) {
+        CHECK(error(Dialect::fanuc, begin + end, "G83 X20 Q3") == ProgramError::cycle_depth_missing);
+        CHECK(error(Dialect::fanuc, begin + end, "G83 X20 Z-4 Q3") == ProgramError::cycle_radius_missing);
+    }
+    CHECK(error(Dialect::linuxcnc, begin, "G83 X20 Q3") == ProgramError::cycle_depth_missing);
+}
+
+TEST_CASE("in fanuc D stands in any block, and stays for a G41 without one", "[program][dialects][cutter]") {
+    const TenTools tools;
+    ProgramSettings settings = in(Dialect::fanuc);
+    settings.tools = &tools;
+    GcodeRun<double> run(settings);
+    run.run("T4 M6\nT11 D2 M6\nF600 G0 X-10"); // tool 11 is 11 mm thick, tool 2 is 2 mm
+    CHECK(run.text("G41 G1 X0 Y0\nX10\nX20").find("feed 0 1 0\nfeed 10 1 0") == 0);
+    CHECK(run.push("D3").error == ProgramError::cutter_active);
+    CHECK(run.push("G40 D3 X30").ok());
+    CHECK(run.push("D2.5").error == ProgramError::tool_unknown);
+    CHECK(run.push("D-1").error == ProgramError::tool_unknown);
+    CHECK(error(Dialect::linuxcnc, "", "T1 D1 M6") == ProgramError::word_unused);
+}
+
+TEST_CASE("T before any other command takes the words behind it, and M of a spindle its own", "[program][dialects]") {
+    const std::string tool = "event " + std::to_string(static_cast<int>(EventKind::tool_select));
+    for (const Dialect dialect : {Dialect::marlin, Dialect::klipper}) {
+        CHECK(text(dialect, "G1 X1\nT0 S1 L0 D0\nT1 M1 S1\nG1 X2") ==
+              "feed 1 0 0\n" + tool + " 0 0\n" + tool + " 1 0\nfeed 2 0 0");
+        CHECK(text(dialect, "G1 X1\nP0 S1 M1 L2 D0 X50\nG1 X2") == "feed 1 0 0\nfeed 2 0 0"); // it parks a tool
+        CHECK(error(dialect, "", "G1 X5 L2") == ProgramError::word_unused);
+        CHECK(error(dialect, "", "M3 P100 I S128 O5") == ProgramError::none);
+    }
+    CHECK(error(Dialect::linuxcnc, "", "T1 S1 L0") == ProgramError::word_unused);
+    CHECK(error(Dialect::grbl, "", "M3 P100") == ProgramError::word_unused);
+    CHECK(error(Dialect::grbl, "", "P0") == ProgramError::word_unused);
+    ProgramSettings settings = in(Dialect::marlin);
+    Words words;
+    settings.left_out = &words;
+    GcodeRun<double> run(settings);
+    run.run("P0 S1");
+    CHECK(words.all == "P0;");
+}

@@ -3,6 +3,7 @@
 #include "support/gcode.hpp"
 
 #include <cmath>
+#include <numbers>
 
 using namespace splinefeed_test;
 
@@ -44,7 +45,6 @@ TEST_CASE("under G91 they are added to the radius and the angle of the place", "
     CHECK(ends_at(run, "G90 G81 @20 ^45 Z-3 R1", 14.1421, 14.1421, 1.0));
     CHECK(ends_at(run, "^60", 10.0, 17.3205, 1.0));
     CHECK(ends_at(run, "G91 @5 Z-1", 12.5, 21.6506, 1.0));
-    CHECK(run.push("^10 L2").error == ProgramError::polar_unsuited);
 }
 
 TEST_CASE("polar words are of motion, in G17, and have a direction", "[program][polar]") {
@@ -64,4 +64,30 @@ TEST_CASE("polar words are of motion, in G17, and have a direction", "[program][
     settings.letters = {'X', 'Z'};
     GcodeRun<double> lathe(settings);
     CHECK(lathe.push("G0 @1 ^0").error == ProgramError::polar_unsuited);
+}
+
+TEST_CASE("repeats of a cycle under G91 go on about X0 Y0", "[program][polar]") {
+    GcodeRun<double> run;
+    run.run("F100 G0 X20");
+    // LinuxCNC 2.9 (CYCLE_MACRO of interp_internal.hh): each hole has so much more radius and angle than the one
+    // before.
+    const auto items = run.run("G91 G81 @2 ^30 Z-3 R1 L12");
+    int holes = 0;
+    for (const auto& item : items) {
+        if (item.kind == ItemKind::move && item.move == MoveKind::feed) {
+            ++holes;
+            const double angle = holes * std::numbers::pi / 6;
+            CHECK(std::abs(to_mm(item.element.to[0]) - (20 + 2 * holes) * std::cos(angle)) < 2e-8);
+            CHECK(std::abs(to_mm(item.element.to[1]) - (20 + 2 * holes) * std::sin(angle)) < 2e-8);
+        }
+    }
+    CHECK(holes == 12);
+    CHECK(ends_at(run, "^90 L3", 0.0, -44.0, 1.0));
+    CHECK(ends_at(run, "@-11 L4", 0.0, 0.0, 1.0)); // the last one in the middle
+    run.run("G80 G90 G0 X10 Y0\nG91");
+    CHECK(run.push("G81 @-3 Z-3 R1 L4").error == ProgramError::polar_unsuited); // beyond the middle
+    CHECK(ends_at(run, "G81 @1 ^-3600090 Z-3 R0 L2", -12.0, 0.0, 1.0));
+    CHECK(ends_at(run, "G20 ^90 @1 L1", 0.0, -37.4, 1.0));
+    CHECK(run.push("G21 @20000 ^1 L100").error == ProgramError::move_too_long);
+    CHECK(run.push("^0.01 L1.5").error == ProgramError::cycle_repeats_invalid);
 }

@@ -20,7 +20,7 @@ std::string word(char letter, double value) {
 } // namespace
 
 TEST_CASE("random arcs lead from their start to their end about their centre", "[program][arc]") {
-    const unsigned seed = std::random_device{}();
+    const unsigned seed = random_seed();
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -41,6 +41,8 @@ OPTIONS = [
     (splinefeed.plan_gcode, "G43 H1\nG1 X10 F3000\nM2\n", {"tools": "t.tbl"}, ""),
     (splinefeed.plan_gcode, CORNERS, {"position": (1, 2, 3)}, ""),
     (splinefeed.plan_gcode, CORNERS, {"state": "s.json"}, ""),
+    (splinefeed.plan_gcode, "G91 G1 X1 F3000\nX1 Y1\nM99\n", {"repeat": 3}, ""),
+    (splinefeed.plan_gcode, "o<side> call\nM2\n", {"subprograms": "subs"}, ""),
     (splinefeed.plan_gcode, "G1 X10 F3000\nM30\n", {"dialect": "fanuc", "increments": True}, ""),
     (splinefeed.plan_gcode, "/G1 X10 F3000\nG1 Y10 F3000\nM2\n", {"block_delete": True}, ""),
     (splinefeed.plan_gcode, "G1 X10 F3000\nM1\nG1 X0\nM2\n", {"optional_stop": True}, ""),
@@ -111,6 +113,8 @@ class Data(Scratch):
         np.savetxt("points", POINTS, delimiter=",", fmt="%.17g")
         for name, text in (("t.tbl", "T1 P1 Z12.5\n"), ("s.json", json.dumps(STATE)), ("machine", JERKY.toml)):
             (self.folder / name).write_text(text)
+        (self.folder / "subs").mkdir()
+        (self.folder / "subs" / "side.ngc").write_text("o<side> sub\nG1 X10 F3000\no<side> endsub\n")
 
     def of_the_module(self, call, given, options):
         """What comes of it: its segments and its summary, or what is refused."""

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <random>
 #include <string_view>
 
 namespace splinefeed_test {
@@ -25,6 +26,13 @@ inline constexpr bool sanitized = false;
 inline std::uint64_t first_round() {
     const char* const only = std::getenv("SPLINEFEED_ROUND");
     return only != nullptr ? std::strtoull(only, nullptr, 10) : 0;
+}
+
+/// Of a random test: the seed that SPLINEFEED_SEED names, else another one in each run. The test tells it where it
+/// fails.
+inline unsigned random_seed() {
+    const char* const given = std::getenv("SPLINEFEED_SEED");
+    return given != nullptr ? static_cast<unsigned>(std::strtoul(given, nullptr, 10)) : std::random_device{}();
 }
 
 /// Whether a sweep is made in its finest steps: where SPLINEFEED_LONG is 1, without sanitizers.

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Programs of custom macro B as people write them: their moves against those that each part needs, computed here from its drawing.
+"""Programs of custom macro B, and of coordinates of Fanuc's and Haas' controls, as people write them: their moves against those that each part
+needs, computed here from its drawing.
 
 macros.py TOOL. Each program of macros/ has a function of its name, which gives the moves in order: "rapid", "feed" or "arc", and the end in
 mm. A move without a length is none. PAUSES and DWELLS have what else there is."""
+import cmath
 import json
 import math
 import pathlib
@@ -13,7 +15,7 @@ import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "macros"
 PAUSES = {"peck_macro": 1}
-DWELLS = {"serial_number": [0.25]}
+DWELLS = {"serial_number": [0.25], "rotated_pattern": [0.25] * 10}
 LEFT_OUT = {"peck_macro": "left out: M99 on line 9"}
 TOLERANCE_MM = 1e-6
 
@@ -142,6 +144,71 @@ def palette():
         yield "rapid", (origin_x + origin_x, origin_y, 0 if system == 54 else system - 1)
         yield "rapid", (origin_x + origin_x, origin_y, system)
     yield "rapid", (10, 20, 56)
+
+
+def pallet_offsets():
+    part = [("rapid", (10, 5), 20), ("rapid", (10, 5), 2), ("feed", (10, 5), -3), ("rapid", (10, 5), 2), ("rapid", (20, 5), 2), ("feed", (20, 5), -3),
+            ("rapid", (20, 5), 2), ("rapid", (15, 12), 2), ("feed", (15, 12), -1), ("arc", (25, 12), -1), ("arc", (15, 12), -1), ("rapid", (15, 12), 20)]
+    yield "rapid", (-300, -200, 0)
+    yield "rapid", (-300, -200, -30)
+    for x, y in ((0, 0), (60, 0), (120, 0), (180, 45), (67.5, -2.5)):
+        yield from ((kind, (x - 300 + at[0], y - 200 + at[1], height - 50)) for kind, at, height in part)
+    yield "rapid", (-300, -200, -30)
+    yield "rapid", (-300, -200, 0)
+
+
+def turned_about(centre, degrees, point):
+    return centre + (point - centre) * cmath.exp(1j * math.radians(degrees))
+
+
+def rotated_pattern():
+    corner = 40 - 15j
+
+    def at(kind, point, height):
+        return kind, (point.real, point.imag, height)
+    yield at("rapid", corner, 0)
+    yield at("rapid", corner, 10)
+    for lobe in range(5):
+        holes = [(kind, y, height) for y in (4, -4) for kind, height in (("rapid", 2), ("rapid", 1), ("feed", -5), ("rapid", 2))]
+        first = [("rapid", 30, 10 if lobe == 0 else 2), ("rapid", 30, 2), ("feed", 30, -1.5), ("arc", 30, -1.5), ("arc", 22, -1.5), ("rapid", 22, 2)]
+        for kind, place, height in first + [(kind, 12 + 1j * y, height) for kind, y, height in holes]:
+            yield at(kind, corner + turned_about(0, 72 * lobe, complex(place)), height)
+    yield at("rapid", corner + 60, 2)
+    slot = [58 - 3j, 72 - 3j, 72 + 3j, 58 + 3j, 58 - 3j]
+    slot = [corner + turned_about(50, 22.5, place) for place in slot]
+    yield at("rapid", slot[0], 2)
+    for place in slot:
+        yield at("feed", place, -2)
+    yield at("rapid", slot[0], 10)
+    yield at("rapid", slot[0], 0)
+    yield "rapid", (0, 0, 0)
+    for kind, place in (("rapid", 10 + 20j), ("arc", 30 + 0j)):  # Z and X, the axes of G18
+        place = turned_about(10 + 0j, -30, place)
+        yield kind, (place.imag, 0, place.real)
+
+
+def scaled_window():
+    shape = [("rapid", 1 + 1j, 1), ("feed", 1 + 1j, -0.1), ("feed", 2 + 1j, -0.1), ("feed", 2 + 2j, -0.1), ("arc", 1 + 2j, -0.1), ("feed", 1 + 1j, -0.1),
+             ("arc", 1.5 + 1j, -0.1), ("rapid", 1.5 + 1j, 1)]
+
+    def window(place, height=lambda z: z):
+        for kind, point, z in shape:
+            point = place(point)
+            yield kind, (25.4 * point.real, 25.4 * point.imag, 25.4 * height(z))
+    start = "rapid", (0, 0, 25.4)
+    yield start
+    yield from window(lambda point: point)
+    yield from window(lambda point: 2 * point, lambda z: 2 * z)
+    yield "rapid", (0, 0, 25.4)
+
+    def small(point):
+        return 1.5 + 1.5j + 0.75 * (point - 1.5 - 1.5j)
+    yield from window(lambda point: turned_about(small(1 + 1j), 45, small(point)), lambda z: 0.75 * z)
+    yield start
+    yield from window(lambda point: complex(-2 - point.real, point.imag))
+    yield from window(lambda point: complex(-2 - point.real, -1 - point.imag))
+    yield from window(lambda point: complex(point.real, -1 - point.imag))
+    yield start
 
 
 def with_length(moves):

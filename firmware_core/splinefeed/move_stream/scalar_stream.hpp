@@ -109,6 +109,15 @@ public:
         trajectory_.limit_feed(converted<S>(mm_s));
     }
 
+    /// Goes on along what the filter gives from now on, which begins where the motion stands. @pre at_rest(), and a
+    /// segment was delivered since place()
+    void turn() noexcept {
+        const Status status = trajectory_.start(curve());
+        SPLINEFEED_ASSERT(status.ok());
+        static_cast<void>(status);
+        exhausted_ = false;
+    }
+
     /// What the plan reads.
     [[nodiscard]] CurveSource<S>& curve() noexcept;
     [[nodiscard]] Trajectory<S>& trajectory() noexcept {

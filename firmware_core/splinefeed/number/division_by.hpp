@@ -13,16 +13,31 @@ class WordDivisor {
 public:
     /// @pre value > 0
     constexpr explicit WordDivisor(std::uint32_t value) noexcept
-        : normalised_(value << std::countl_zero(value)), reciprocal_(word_reciprocal(normalised_)),
-          shift_(std::countl_zero(value)) {}
+        : normalised_(value << std::countl_zero(value)), shift_(std::countl_zero(value)) {
+#ifndef __SIZEOF_INT128__
+        reciprocal_ = word_reciprocal(normalised_);
+#endif
+    }
 
-    [[nodiscard]] constexpr std::uint32_t value() const noexcept { return normalised_ >> shift_; }
+    [[nodiscard]] constexpr std::uint32_t value() const noexcept {
+        return normalised_ >> shift_;
+    }
     /// The divisor times 2^shift(); its top bit is set.
-    [[nodiscard]] constexpr std::uint32_t normalised() const noexcept { return normalised_; }
-    [[nodiscard]] constexpr int shift() const noexcept { return shift_; }
+    [[nodiscard]] constexpr std::uint32_t normalised() const noexcept {
+        return normalised_;
+    }
+    [[nodiscard]] constexpr int shift() const noexcept {
+        return shift_;
+    }
 
     /// (rest * 2^32 + digit) / normalised(): returns the quotient and updates the rest. @pre rest < normalised()
     constexpr std::uint32_t divide(std::uint32_t& rest, std::uint32_t digit) const noexcept {
+#ifdef __SIZEOF_INT128__
+        const std::uint64_t numerator = (static_cast<std::uint64_t>(rest) << 32) | digit;
+        const std::uint64_t quotient = numerator / normalised_;
+        rest = static_cast<std::uint32_t>(numerator - quotient * normalised_);
+        return static_cast<std::uint32_t>(quotient);
+#else
         const std::uint64_t estimate =
             long_product(reciprocal_, rest) + ((static_cast<std::uint64_t>(rest) << 32) | digit);
         auto quotient = static_cast<std::uint32_t>(estimate >> 32) + 1U;
@@ -37,11 +52,14 @@ public:
         }
         rest = left;
         return quotient;
+#endif
     }
 
 private:
     std::uint32_t normalised_;
+#ifndef __SIZEOF_INT128__
     std::uint32_t reciprocal_;
+#endif
     int shift_;
 };
 
@@ -102,21 +120,30 @@ public:
     /// By 1.
     constexpr DivisionBy() noexcept = default;
     /// @pre divisor > 0; otherwise by one ulp
-    constexpr explicit DivisionBy(Fixed divisor) noexcept
-        : divisor_(divisor.raw() > 0 ? divisor.raw() : 1), by_(static_cast<std::uint64_t>(divisor_)) {}
+    constexpr explicit DivisionBy(Fixed divisor) noexcept : divisor_(divisor.raw() > 0 ? divisor.raw() : 1) {
+#ifndef __SIZEOF_INT128__
+        by_ = detail::Divisor(static_cast<std::uint64_t>(divisor_));
+#endif
+    }
 
     /// Rounded to nearest, ties away from zero; saturates.
     [[nodiscard]] friend constexpr Fixed operator/(Fixed a, const DivisionBy& by) noexcept {
+#ifdef __SIZEOF_INT128__
+        return Fixed::from_raw(detail::quotient(a.raw(), by.divisor_));
+#else
         if (detail::quotient_overflows(detail::magnitude(a.raw()), static_cast<std::uint64_t>(by.divisor_)))
             [[unlikely]] {
             return a < Fixed{} ? Fixed::lowest() : Fixed::max();
         }
         return Fixed::from_raw(detail::quotient_of_digits(a.raw(), by.divisor_, by.by_).raw);
+#endif
     }
 
 private:
     std::int64_t divisor_ = std::int64_t{1} << detail::fixed_fraction_bits;
+#ifndef __SIZEOF_INT128__
     detail::Divisor by_{std::uint64_t{1} << detail::fixed_fraction_bits};
+#endif
 };
 
 /// a / (b / 4) for a >= 0 and b > 0, rounded up by one ulp at most; the largest number if it does not fit. The quotient
@@ -127,6 +154,11 @@ private:
     if ((a.raw() >> 31) >= divisor) [[unlikely]] {
         return Fixed::max(); // a 2^32 / b is 2^63 at least
     }
+#ifdef __SIZEOF_INT128__
+    const auto raw = static_cast<std::uint64_t>(a.raw());
+    const WideQuotient exact = divide(Wide{raw >> 32, raw << 32}, divisor);
+    return Fixed::from_raw(static_cast<std::int64_t>(exact.quotient + (exact.remainder != 0 ? 1U : 0U)));
+#else
     const detail::WordDivisor by(divisor);
     const auto numerator = static_cast<std::uint64_t>(a.raw()) << by.shift();
     auto rest = static_cast<std::uint32_t>(numerator >> 32);
@@ -134,6 +166,7 @@ private:
     const std::uint32_t fraction = by.divide(rest, 0);
     return Fixed::from_raw(static_cast<std::int64_t>((static_cast<std::uint64_t>(whole) << 32) | fraction) +
                            (rest != 0 ? 1 : 0));
+#endif
 }
 
 /// a * b / 4

@@ -65,6 +65,16 @@ template <Floating S>
 template <Floating S>
 [[nodiscard]] constexpr Checked checked_integer(S value, int exponent) noexcept {
     SPLINEFEED_ASSERT(exponent >= -64);
+#ifdef __SIZEOF_INT128__
+    if (!std::is_constant_evaluated()) { // a processor of 64 bits has double
+        const double scaled = static_cast<double>(value) * power_of_two<double>(exponent);
+        if (scaled > -0x1p62 && scaled < 0x1p62) [[likely]] {
+            const auto whole = static_cast<std::int64_t>(scaled);
+            const double rest = scaled - static_cast<double>(whole);
+            return {whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0)};
+        }
+    }
+#endif
     const Decomposed parts = decompose(value);
     return with_sign(shift_rounded(parts.significand, parts.exponent + exponent), parts.negative);
 }

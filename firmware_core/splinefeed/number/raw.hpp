@@ -99,7 +99,13 @@ inline constexpr int fixed_fraction_bits = 32;
 /// a * b / 2^32 rounded to nearest, ties away from zero; saturates.
 SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t product(std::int64_t a, std::int64_t b) noexcept {
 #ifdef __SIZEOF_INT128__
-    return checked_product(a, b).raw;
+    // One half, less by one last bit if the product is negative.
+    __extension__ using Signed = __int128;
+    const Signed rounded =
+        (static_cast<Signed>(a) * b + ((std::int64_t{1} << (fixed_fraction_bits - 1)) + ((a ^ b) >> 63))) >>
+        fixed_fraction_bits;
+    const auto result = static_cast<std::int64_t>(rounded);
+    return result == rounded ? result : saturated((a ^ b) < 0).raw;
 #else
     if (!both_short(a, b)) [[unlikely]] {
         return checked_product(a, b).raw;

@@ -74,12 +74,17 @@ rounded_product(std::int32_t a, std::int32_t b, int count) noexcept {
 
 /// value * word / 2^32 rounded down. It always fits.
 [[nodiscard]] constexpr std::int64_t word_product(std::int64_t value, std::int32_t word) noexcept {
+#ifdef __SIZEOF_INT128__
+    __extension__ using Signed = __int128;
+    return static_cast<std::int64_t>((static_cast<Signed>(value) * word) >> 32);
+#else
     const std::uint32_t lower = lower_word(value);
     // With the sign of the word, which was taken for one larger by 2^32.
     const std::uint32_t below =
         static_cast<std::uint32_t>(long_product(lower, static_cast<std::uint32_t>(word)) >> 32) -
         (lower & static_cast<std::uint32_t>(word >> 31));
     return signed_product(upper_word(value), word) + static_cast<std::int32_t>(below);
+#endif
 }
 
 /// value * 2^exponent rounded to nearest, ties away from zero, as the nearest word. Any exponent is allowed.

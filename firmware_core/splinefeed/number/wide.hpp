@@ -8,6 +8,7 @@
 #include "splinefeed/number/digits.hpp"
 
 #include <compare>
+#include <type_traits>
 
 namespace splinefeed {
 
@@ -120,6 +121,16 @@ namespace detail {
         return {~std::uint64_t{0}, 0U};
     }
 #ifdef __SIZEOF_INT128__
+#ifdef __x86_64__
+    if (!std::is_constant_evaluated()) { // compilers call a function, which asks again whether the quotient fits
+        WideQuotient out;
+        __asm__("divq %4"
+                : "=a"(out.quotient), "=d"(out.remainder)
+                : "0"(numerator.low), "1"(numerator.high), "r"(denominator)
+                : "cc");
+        return out;
+    }
+#endif
     if (numerator.high == 0) {
         const std::uint64_t quotient = numerator.low / denominator;
         return {quotient, numerator.low - quotient * denominator};

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace splinefeed {
 
@@ -54,11 +55,29 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     return root + (n - root * root > 2 * root ? 1U : 0U);
 }
 
+#ifdef __x86_64__
+/// sqrt(a) rounded to nearest, from the processor's root of a number that differs from a by 2^-51 of it or by 1, and
+/// the lower word of a. @pre a < 2^102: then that root is nearer than 1
+[[nodiscard]] inline std::uint64_t root_near(double about, std::uint64_t lower) noexcept {
+    double estimate = 0.0;
+    __asm__("sqrtsd %1, %0" : "=x"(estimate) : "x"(about));
+    const auto root = static_cast<std::int64_t>(estimate + 0.5);
+    const auto rest =
+        static_cast<std::int64_t>(lower - static_cast<std::uint64_t>(root) * static_cast<std::uint64_t>(root));
+    return static_cast<std::uint64_t>(root + (rest > root ? 1 : 0) - (rest <= -root && root > 0 ? 1 : 0));
+}
+#endif
+
 } // namespace detail
 
 /// sqrt(a) rounded to nearest, for a < 2^63. Cost: seven multiplies.
 [[nodiscard]] constexpr std::uint32_t square_root_rounded(std::uint64_t a) noexcept {
     SPLINEFEED_ASSERT((a >> 63) == 0);
+#ifdef __x86_64__
+    if (!std::is_constant_evaluated()) {
+        return static_cast<std::uint32_t>(detail::root_near(static_cast<double>(static_cast<std::int64_t>(a)), a));
+    }
+#endif
     if (a == 0) {
         return 0;
     }
@@ -100,6 +119,13 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
 /// 1/2 is not an integer.
 [[nodiscard]] constexpr std::uint64_t square_root_rounded(Wide a) noexcept {
     SPLINEFEED_ASSERT((a.high >> 63) == 0);
+#ifdef __x86_64__
+    if (!std::is_constant_evaluated() && (a.high >> 38) == 0) [[likely]] {
+        const auto upper = static_cast<double>(static_cast<std::int64_t>(a.high));
+        return detail::root_near(upper * 0x1p64 + 2.0 * static_cast<double>(static_cast<std::int64_t>(a.low >> 1)),
+                                 a.low);
+    }
+#endif
     if ((a.high >> 62) == 0) {
         const std::uint64_t twice = square_root(shift_left(a, 2)); // one more bit of the root decides
         return (twice >> 1) + (twice & 1U);                        // all 64 bits may be set: halve before adding

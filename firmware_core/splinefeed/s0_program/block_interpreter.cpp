@@ -35,7 +35,7 @@ std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
 
 BlockInterpreter::BlockInterpreter(const ProgramSettings& settings, WordEvaluator* evaluator) noexcept
     : settings_(settings), letters_(settings_), reader_(settings_, evaluator), evaluator_(evaluator),
-      modal_(ModalState::at_start(settings_)), frame_(letters_), stage_(all_done) {
+      modal_(ModalState::at_start(settings_)), frame_(letters_, settings_.extension), stage_(all_done) {
     block_.clear();
 }
 
@@ -159,10 +159,15 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         const BlockStatus adapted = adapt_words(block_, modal_, letters_, settings_);
         const SpacePoint place = space(place_.program);
         const BlockStatus polar = adapt_polar(block_, modal_, letters_, {place[0], place[1]});
+        const BlockStatus placed =
+            settings_.extension != nullptr
+                ? settings_.extension->adapt(block_, modal_, letters_, {place_.program, frame_.offsets()})
+                : BlockStatus{};
         status = !status.ok()    ? status
                  : !milled.ok()  ? milled
                  : !adapted.ok() ? adapted
                  : !polar.ok()   ? polar
+                 : !placed.ok()  ? placed
                                  : execute();
     }
     if (!status.ok()) {
@@ -216,7 +221,8 @@ BlockStatus BlockInterpreter::execute() noexcept {
     const NurbsCurve::Progress nurbs = nurbs_.progress();
     BlockStatus status;
     const bool changes_frame = block_.has(CodeGroup::non_modal) || block_.has(CodeGroup::tool_length) ||
-                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::tool_change);
+                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::tool_change) ||
+                               block_.has(CodeGroup::without_effect); // of an extension
     const auto run = [&] {
         status = execute_words(use);
         if (status.ok() && assigns()) {
@@ -239,6 +245,9 @@ BlockStatus BlockInterpreter::execute() noexcept {
         cycle_words_ = cycle_words;
         results_ = results;
         nurbs_.go_back(nurbs);
+        if (settings_.extension != nullptr) {
+            settings_.extension->take_back();
+        }
         return status;
     }
     cutter_.keep_plan();
@@ -291,6 +300,10 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
         const int system = code <= 590 ? (code - 540) / 10 : 5 + (code - 590);
         offsets_changed_ = offsets_changed_ || frame_.offsets().active != system;
         frame_.offsets().active = system;
+        frame_changed();
+    }
+    if (settings_.extension != nullptr && settings_.extension->apply(frame_.offsets())) {
+        offsets_changed_ = true;
         frame_changed();
     }
     if (const BlockStatus status = set_offsets(); !status.ok()) {

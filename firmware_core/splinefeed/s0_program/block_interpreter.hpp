@@ -133,6 +133,7 @@ private:
     void frame_changed() noexcept;
 
     // Cutter compensation: cutter_words.cpp.
+    BlockStatus keep_cutter_number() noexcept;
     BlockStatus set_cutter() noexcept;
     BlockStatus find_tool(CutterOffset& out) const noexcept;
     BlockStatus check_cutter() const noexcept;

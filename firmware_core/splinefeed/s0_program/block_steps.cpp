@@ -219,12 +219,15 @@ bool BlockInterpreter::end_program() noexcept {
     }
     progress_ = Progress::ended;
     modal_.end_program(settings_);
-    if (frame_.offsets().active == 0) {
-        return false;
+    const bool moves = frame_.offsets().active != 0;
+    if (settings_.extension != nullptr) {
+        settings_.extension->end_program();
     }
-    frame_.offsets().active = 0;
-    frame_changed();
-    return true;
+    if (moves || settings_.extension != nullptr) {
+        frame_.offsets().active = 0;
+        frame_changed();
+    }
+    return moves;
 }
 
 Pull BlockInterpreter::next_step(ProgramStep& out, ProgramEvent& event) noexcept {

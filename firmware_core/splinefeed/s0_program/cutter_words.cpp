@@ -48,7 +48,8 @@ BlockStatus BlockInterpreter::find_tool(CutterOffset& out) const noexcept {
             return block_.at(ProgramError::integer_needed, 'l');
         }
     } else {
-        std::int32_t number = frame_.offsets().tool_number;
+        const bool is_kept = modal_.cutter_number >= 0;
+        std::int32_t number = is_kept ? modal_.cutter_number : frame_.offsets().tool_number;
         if (block_.has('d') && (!to_integer(block_.value('d'), number) || number < 0)) {
             return block_.at(ProgramError::tool_unknown, 'd');
         }
@@ -56,7 +57,7 @@ BlockStatus BlockInterpreter::find_tool(CutterOffset& out) const noexcept {
             return block_.at(ProgramError::tool_table_missing, CodeGroup::cutter_radius);
         }
         ToolOffset tool;
-        if (!settings_.tools->find(number, tool) && (number > 0 || !block_.has('d'))) {
+        if (!settings_.tools->find(number, tool) && (number > 0 || !(block_.has('d') || is_kept))) {
             return block_.has('d') ? block_.at(ProgramError::tool_unknown, 'd')
                                    : block_.at(ProgramError::tool_unknown, CodeGroup::cutter_radius);
         }
@@ -75,8 +76,29 @@ BlockStatus BlockInterpreter::find_tool(CutterOffset& out) const noexcept {
     return {};
 }
 
+// D of the controls where it stays: the number for the next G41, and not the diameter of G41.1.
+BlockStatus BlockInterpreter::keep_cutter_number() noexcept {
+    const std::int16_t code = block_.code(CodeGroup::cutter_radius);
+    if (!rules().keeps_cutter_number || !block_.has('d') || code == 411 || code == 421) {
+        return {};
+    }
+    if (code == Block::no_code && modal_.cutter.side != 0) {
+        return block_.at(ProgramError::cutter_active, 'd');
+    }
+    constexpr std::int32_t most = 9999;
+    std::int32_t number = 0;
+    if (!to_integer(block_.value('d'), number) || number < 0 || number > most) {
+        return block_.at(ProgramError::tool_unknown, 'd');
+    }
+    modal_.cutter_number = static_cast<std::int16_t>(number);
+    return {};
+}
+
 BlockStatus BlockInterpreter::set_cutter() noexcept {
     const std::int16_t code = block_.code(CodeGroup::cutter_radius);
+    if (const BlockStatus status = keep_cutter_number(); !status.ok()) {
+        return status;
+    }
     if (code == 400) {
         modal_.needs_straight = modal_.needs_straight || cutter_.has_entered();
         modal_.cutter = {};

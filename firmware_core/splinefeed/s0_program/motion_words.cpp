@@ -237,6 +237,9 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     if (!status.ok()) {
         return status;
     }
+    if (settings_.extension != nullptr && !settings_.extension->turn_arc(arc.radius, arc.sweep_deg)) {
+        return block_.at(ProgramError::arc_radius_zero, CodeGroup::motion);
+    }
     if (arc.is_flat && !block_.has_any(Block::bits("abcuvwe"))) {
         plan_parabola(i, j, arc, end);
         return move_to(end);
@@ -282,7 +285,9 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
         block_.keep(~Block::letter_bit('l'));
     }
     CannedCycle& cycle = series_.emplace<CannedCycle>();
-    if (const BlockStatus status = cycle.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
+    if (const BlockStatus status =
+            cycle.begin(block_, modal_, before, letters_, at, rules().cycles_apart, cycle_words_);
+        !status.ok()) {
         return status;
     }
     if (idle) {
@@ -294,6 +299,15 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     bottom[letters_.place(letters_of(modal_.plane).axes[2])] = cycle.bottom();
     if (const BlockStatus status = check_reach(frame_.to_machine(bottom)); !status.ok()) {
         return status;
+    }
+    AxisPoint around = bottom; // a square about the holes that lie about X0 Y0, on its tip: turned it has them, too
+    for (int corner = 0; corner < 4 && cycle.radius().raw > 0; ++corner) {
+        const Decimal far{(corner < 2 ? 2 : -2) * cycle.radius().raw};
+        around[letters_.place('x')] = corner % 2 == 0 ? far : Decimal{};
+        around[letters_.place('y')] = corner % 2 == 0 ? Decimal{} : far;
+        if (const BlockStatus status = check_reach(frame_.to_machine(around)); !status.ok()) {
+            return status;
+        }
     }
     return move_to({end, frame_.to_machine(end)});
 }

@@ -192,7 +192,7 @@ void BlendedPath<S>::fit_joint() noexcept {
         if (before_ > S{} && left < least && left > absorbed(move, room)) {
             room = room - (least - left);
         }
-        if (fit_blend(present.joint, move, behind, room, axes_, blend_)) {
+        if (fit_blend(present.joint, move, behind, room, axes_, blend_, roundest_)) {
             after_ = blend_.way;
         } else {
             stops_ = present.joint.half_sine > literal<S>(least_corner);

@@ -33,7 +33,8 @@ public:
           sharpest_{scale2(smaller(rules.sharpest.curvature_1_mm, from_integer<S>(most_sharpest)),
                            bend_log2 + chord_unit_log2),
                     rules.sharpest.fading, rules.sharpest.half_sine},
-          smooth_{rules.smooth.jump, scale2(rules.smooth.bend_1_mm, bend_log2 + chord_unit_log2)}, kink_(rules.kink) {}
+          smooth_{rules.smooth.jump, scale2(rules.smooth.bend_1_mm, bend_log2 + chord_unit_log2)}, kink_(rules.kink),
+          roundest_(rules.roundest) {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;
@@ -100,6 +101,7 @@ private:
     SharpestBlend<S> sharpest_; // in units of 2^-bend_log2 per chord unit
     SmoothJoint<S> smooth_;     // likewise
     PassedKink<S> kink_;
+    S roundest_;
     std::array<Entry, capacity> ring_{};
     PerAxis<Position> last_{}; // end of the last move that was pushed
     PerAxis<Position> here_{}; // end of the last segment that was delivered

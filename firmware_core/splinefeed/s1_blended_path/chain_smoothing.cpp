@@ -91,12 +91,13 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
     }
     const auto axes = static_cast<unsigned>(points.axes());
     // The points first - 3 to end, from this one as programmed, in units of 2^finest.
-    std::array<PerAxis<S>, 7> around{};
+    std::array<PerAxis<S>, 7> around; // NOLINT: written before it is read
+    ChainPoint<S>& here = points[i];
     for (std::uint64_t j = first - 3; j <= end; ++j) {
+        const ChainPoint<S>& there = points[j];
         PerAxis<S>& at = around[static_cast<unsigned>(j - (first - 3))];
-        points.programmed(i, j, at);
         for (unsigned k = 0; k < axes; ++k) {
-            at[k] = scale2(at[k] + points[j].moved[k], -finest);
+            at[k] = scale2(distance<S>(here.place[k], there.place[k], chord_unit_log2) + there.moved[k], -finest);
         }
     }
     PerAxis<S> pull{};
@@ -121,7 +122,6 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
     if (!(stiffness > S{})) {
         return;
     }
-    ChainPoint<S>& here = points[i];
     for (unsigned k = 0; k < axes; ++k) {
         here.moved[k] = here.moved[k] - scale2(pull[k] / stiffness, finest) - here.centre[k];
     }

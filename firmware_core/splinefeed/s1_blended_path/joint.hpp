@@ -56,8 +56,9 @@ struct Blend {
 /// Between lines: a cubic with both inner points on the corner; its largest distance from the corner is
 /// way sin(phi/2) / 4. Where the room is shorter than joint.way it becomes a quintic that uses the tolerance on less
 /// way. Where the curvature jumps: Hermite's quintic. Cost: between lines a division; otherwise some hundred products.
+/// @param roundest  PathRules::roundest
 template <Scalar S>
 [[nodiscard]] bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<S>& after, S room,
-                             int axes, Blend<S>& out) noexcept;
+                             int axes, Blend<S>& out, S roundest = from_integer<S>(1)) noexcept;
 
 } // namespace splinefeed

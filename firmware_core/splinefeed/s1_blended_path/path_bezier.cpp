@@ -151,7 +151,11 @@ S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexc
         divide(first, speed, axes_);
         divide(apart, speed, axes_);
         const S ahead = dot(first, apart, axes_);
-        u = at_end ? larger(half, smaller(one, u + ahead)) : larger(S{}, smaller(half, u + ahead));
+        const S next = at_end ? larger(half, smaller(one, u + ahead)) : larger(S{}, smaller(half, u + ahead));
+        if (next == u) {
+            break; // it is the foot, or an end
+        }
+        u = next;
     }
     return least;
 }

@@ -45,7 +45,9 @@ struct PathRules {
                             ///< not say it
     SmoothJoint<S> smooth{};
     PassedKink<S> kink{};
-    PerAxis<bool> rotary{}; ///< axes that the feed does not count where others move
+    PerAxis<bool> rotary{};          ///< axes that the feed does not count where others move
+    S roundest = from_integer<S>(1); ///< 1 to 2: how far from a corner a blend may pass that has less room than its
+                                     ///< tolerance allows: (1/4 + roundest / 8) way sin(phi/2)
 };
 
 /// The same in another scalar.
@@ -70,7 +72,8 @@ template <Scalar S>
         {larger(from_double<S>(smooth.jump), std::same_as<S, float> ? SmoothJoint<S>{}.jump : S{}),
          from_double<S>(smooth.bend_1_mm)},
         kink,
-        rules.rotary};
+        rules.rotary,
+        from_double<S>(rules.roundest)};
 }
 
 } // namespace splinefeed

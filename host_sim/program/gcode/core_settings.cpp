@@ -10,7 +10,7 @@
 
 namespace splinefeed::host {
 
-ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools) {
+ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools, FanucWords& fanuc) {
     ProgramSettings out;
     out.axes = static_cast<int>(from.axes.size());
     for (std::size_t k = 0; k < from.axes.size(); ++k) {
@@ -29,6 +29,7 @@ ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* too
     out.increments = from.increments;
     out.left_out = from.left_out;
     out.tools = tools;
+    out.extension = from.dialect == Dialect::fanuc ? &fanuc : nullptr;
     out.most_speed = from.spindle != nullptr ? decimal_of(from.spindle->max_rpm) : out.most_speed;
     return out;
 }
@@ -52,7 +53,9 @@ FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant)
             settings.increments,
             settings.left_out,
             &coolant,
-            settings.axes};
+            settings.axes,
+            settings.runs,
+            settings.subprogram_folders};
 }
 
 } // namespace splinefeed::host

@@ -5,11 +5,14 @@
 #include "host_sim/program/gcode/flow_code.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 
+#include "splinefeed/s0_program/words/fanuc_words.hpp"
+
 namespace splinefeed::host {
 
 /// @param from  must outlive the interpreter
 /// @param tools  null: none
-[[nodiscard]] ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools);
+/// @param fanuc  for that dialect
+[[nodiscard]] ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools, FanucWords& fanuc);
 
 /// What leads from line to line in it. @param coolant  must outlive whoever follows it
 [[nodiscard]] FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant);

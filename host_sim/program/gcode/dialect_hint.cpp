@@ -141,10 +141,17 @@ std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect
             return "$ begins a command of grbl; --dialect grbl has $H, and --ignore $* leaves such lines out";
         }
         if (first == '?' || first == '!' || first == '~' || first == '\x18') {
-            return "grbl takes this byte as a command of the sender, at once; in a program write M0 to pause, or leave "
-                   "the line out";
+            return "grbl takes this byte as a command of the sender, at once; in a program write M0 to pause; --ignore "
+                   "$*,unknown leaves such lines out";
         }
         return "";
+    case ProgramError::bed_levelling_unsupported: {
+        const std::optional<CodeWord> code = code_of(text);
+        return code && code->tenths == 260 ? "it prints a pattern of its own to test the mesh of the bed, which is "
+                                             "not supported; --ignore G26 "
+                                             "leaves it out"
+                                           : "";
+    }
     case ProgramError::arc_radius_mismatch: return arc_hint(rules.arc);
     case ProgramError::dwell_invalid:
         return rules.dwell == DwellUnit::millisecond ? "a dwell needs P, its milliseconds, and P is at least 0"

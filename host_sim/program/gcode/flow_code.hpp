@@ -24,6 +24,8 @@ struct FlowRules {
     LeftOutList* left_out = nullptr;       ///< is told an M99 that would begin the program again; null: nobody asks
     const CoolantState* coolant = nullptr; ///< where the program is; null: nobody knows, it is off
     std::vector<std::string> axes{};       ///< of the machine: x, y, z, ...
+    std::uint64_t runs = 1;                ///< of a main program that M99 ends
+    std::vector<std::string> folders{};    ///< of subprograms in files of their own, in the order of search
 };
 
 /// Whether the line has M2 or M30.

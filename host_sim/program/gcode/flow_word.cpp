@@ -29,6 +29,14 @@ void skip_number(TextCursor& text) noexcept {
     }
 }
 
+// Behind a / that does not leave the line out, and an N number.
+void skip_block_number(TextCursor& text) noexcept {
+    static_cast<void>(text.take('/'));
+    if (text.take('n')) {
+        skip_number(text);
+    }
+}
+
 // Without zeros in front.
 std::string read_label(TextCursor& text) {
     std::string out;
@@ -57,23 +65,19 @@ void skip_value(TextCursor& text) noexcept {
 }
 
 std::string program_label(std::string_view number) {
-    return std::string("O").append(number); // the others are in lower case
+    return std::string("O").append(number);
 }
 
 bool has_flow_word(std::string_view text) noexcept {
     TextCursor cursor(text);
-    if (cursor.take('n')) {
-        skip_number(cursor);
-    }
+    skip_block_number(cursor);
     return cursor.peek() == 'o';
 }
 
 bool is_program_number(std::string_view text) noexcept {
     TextCursor cursor(text);
-    if (cursor.take('n')) {
-        skip_number(cursor);
-    }
-    if (!cursor.take('o') || !is_digit(cursor.peek())) {
+    skip_block_number(cursor);
+    if (!(cursor.take('o') || cursor.take(':')) || !is_digit(cursor.peek())) {
         return false;
     }
     skip_number(cursor);
@@ -82,9 +86,7 @@ bool is_program_number(std::string_view text) noexcept {
 
 std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong) {
     TextCursor cursor(text);
-    if (cursor.take('n')) {
-        skip_number(cursor);
-    }
+    skip_block_number(cursor);
     wrong = cursor.at();
     cursor.step(); // the O
     FlowWord out{};

@@ -65,6 +65,9 @@ void skip_value(TextCursor& text) noexcept;
 
 /// The label of a numbered program: no label of an O word is equal.
 [[nodiscard]] std::string program_label(std::string_view number);
+[[nodiscard]] constexpr bool is_program_label(std::string_view label) noexcept {
+    return label.starts_with('O'); // the others are in lower case
+}
 
 /// The word. Nothing: it has no label or no known keyword; `wrong` is where.
 [[nodiscard]] std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong);

@@ -2,6 +2,7 @@
 #include "host_sim/program/gcode/gcode_moves.hpp"
 
 #include "host_sim/config/decimal_number.hpp"
+#include "host_sim/program/gcode/called_lines.hpp"
 #include "host_sim/program/gcode/core_settings.hpp"
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
@@ -20,8 +21,8 @@
 #include "splinefeed/s0_program/text/text_cursor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
-#include <limits>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -37,14 +38,14 @@ public:
         : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
           tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                                 : std::nullopt),
-          items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
+          items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr, fanuc_), expression_,
                                settings.max_feed_mm_s)),
           interpreter_(items_->interpreter()),
           flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings, coolant_)) {}
 
     bool start(PerAxis<Position>& position) override {
         position = settings_->start;
-        variables_.follow(interpreter_);
+        variables_.follow(interpreter_, &fanuc_);
         if (settings_->left_out != nullptr) {
             settings_->left_out->begin();
         }
@@ -64,16 +65,20 @@ public:
         if (!pending_) {
             const bool enough = settings_->most_moves > 0 && history_.moves() >= settings_->most_moves;
             if (interpreter_.has_ended() || aborted_ || enough) {
+                require_runs();
                 return false;
             }
-            switch (cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_)) {
+            const ProgramFlow::Step step = cut_ == Cut::ahead ? ProgramFlow::Step::line : flow_.next(line_);
+            called_.pass(line_);
+            switch (step) {
             case ProgramFlow::Step::end:
                 end_input();
+                require_runs();
                 is_last_ = true;
                 break;
             case ProgramFlow::Step::nothing: return true;
             case ProgramFlow::Step::line:
-                last_line_ = line_.number;
+                last_line_ = called_.in_program();
                 cut_ = line_.whole ? Cut::no : cut_ == Cut::no ? Cut::ahead : Cut::read;
                 cut_ == Cut::ahead ? end_input() : read_line();
                 break;
@@ -120,15 +125,15 @@ public:
         return line > 0 ? fmt::format("line {}", line) : fmt::format("move {}", row + std::uint64_t{1});
     }
 
-    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override {
-        return {file_, step.line, text};
+    [[nodiscard]] InputError refusal(const SourceStep& /*step*/, std::string_view text) const override {
+        return error_of_item(text);
     }
 
     [[nodiscard]] std::string without_moves(Error /*error*/) const override { return {}; }
     void passed(std::uint64_t row) noexcept override { history_.forget_before(row); }
 
     [[nodiscard]] UnreadLines unread() override {
-        UnreadLines out{line_.number, 0};
+        UnreadLines out{called_.in_program(), 0};
         while ((interpreter_.has_ended() || flow_.has_ended()) && flow_.next_unread(line_)) {
             TextCursor cursor(line_.text);
             const char first = cursor.peek();
@@ -142,22 +147,22 @@ private:
     enum class Cut : std::uint8_t { no, ahead, read };
 
     void read_line() {
-        if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
-            throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
+        if (line_.number >= CalledLines::first) {
+            throw InputError(file_, line_.number, "the program has more than 2^31 lines; split it");
         }
         if (settings_->left_out != nullptr) {
-            settings_->left_out->at_line(line_.number);
+            settings_->left_out->at_line(called_.in_program());
         }
         if (is_left_out()) {
             return;
         }
         short_.take(line_.text, rules_of(settings_->dialect).open_comments, BlockInterpreter::longest_line);
-        BlockStatus status = interpreter_.push(short_.text(), static_cast<std::uint32_t>(line_.number));
+        BlockStatus status = interpreter_.push(short_.text(), called_.take(line_));
         const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
         status.column = static_cast<std::uint16_t>(status.column > 0 ? short_.place(at) + 1 : 0);
         if (status.error == ProgramError::program_aborted) {
             aborted_ = true;
-            report({file_, line_.number, std::uint64_t{short_.comment_place(at)} + 1,
+            report({file_of_line(), line_.number, std::uint64_t{short_.comment_place(at)} + 1,
                     fmt::format("the program ends itself by (ABORT,{})", short_.comment(at))});
         } else if (!status.ok()) {
             report_block(status, line_.text);
@@ -171,25 +176,43 @@ private:
         }
     }
 
+    // A program that does not go back to its begin would run once, whatever the option says.
+    void require_runs() {
+        if (!flow_.has_ended() && !aborted_ && settings_->most_moves == 0 && flow_.runs() < settings_->runs) {
+            report({file_, last_line_, "--repeat is of a program that M99 ends, and this one ends here; leave it out"});
+        }
+    }
+
     /// Throws, unless problems are collected. @param cause  as of ProblemList::add
     void report(const InputError& error, std::string_view cause = {}) {
         if (problems_ == nullptr) {
             throw InputError(error);
         }
-        problems_->add(error, line_.number, cause);
+        problems_->add(error, line_.number, cause, file_of_line());
+    }
+
+    [[nodiscard]] const std::string& file_of_line() const noexcept {
+        return line_.file != nullptr ? *line_.file : file_;
+    }
+
+    [[nodiscard]] InputError error_of_item(std::string_view text) const {
+        const LinePlace place = called_.place(item_.line);
+        return {place.file != nullptr ? *place.file : file_, place.number, text};
     }
 
     void report_block(const BlockStatus& status, std::string_view text) {
         const std::string_view rest =
             text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
-        const std::string sentence =
-            cut_ == Cut::read ? std::string(cut_line) : refusal_sentence(rest, status.error, *settings_);
+        const std::string sentence = cut_ == Cut::read ? std::string(cut_line)
+                                     : status.error == ProgramError::coordinates_unsuited
+                                         ? std::string(describe(fanuc_.fault()))
+                                         : refusal_sentence(rest, status.error, *settings_);
         const bool says_dialect = sentence.find("--dialect") != std::string::npos;
         const std::string place = in_the_line(status);
         // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
         const char letter = rest.empty() ? ' ' : upper_case(rest.front());
         const bool is_code = letter == 'G' || letter == 'M';
-        report({file_, line_.number, std::uint64_t{status.column},
+        report({file_of_line(), line_.number, std::uint64_t{status.column},
                 fmt::format("{}{}{}", place, sentence, says_dialect ? std::string_view() : guess())},
                (is_code || place.empty() ? place : std::string(1, letter)) + sentence);
     }
@@ -197,7 +220,7 @@ private:
     // A line that is no G-code, or that the user wants to be left out. Macros that nobody speaks of are named.
     [[nodiscard]] bool is_left_out() {
         if (const std::optional<KeptLine> kept = kept_line(line_.text)) {
-            report({file_, line_.number, splinefeed::host::refusal(*kept)}, kept->word);
+            report({file_of_line(), line_.number, splinefeed::host::refusal(*kept)}, kept->word);
             return true;
         }
         const std::string_view word = left_out_line(line_.text, *settings_);
@@ -208,7 +231,7 @@ private:
         if (word.empty() && !macro.empty() &&
             (has_macros(settings_->dialect) || macro.find('_') != std::string_view::npos)) {
             report(
-                {file_, line_.number,
+                {file_of_line(), line_.number,
                  fmt::format("{}: it is a macro or an extended command of a printer; --ignore {} leaves its lines out, "
                              "--ignore unknown all of this kind{}",
                              in_quotes(macro), macro, guess())},
@@ -230,7 +253,7 @@ private:
         if (cut_ == Cut::read && !ends) {
             throw InputError(file_, last_line_, cut_line);
         }
-        out.line = item_.line;
+        out.line = called_.place(item_.line).in_program;
         out.stops = item_.stops_before;
         out.dwell_s = 0.0;
         switch (item_.kind) {
@@ -250,8 +273,9 @@ private:
     }
 
     void take_move(SourceStep& out) const {
-        if (!settings_->simulated) {
-            require_possible(item_.move);
+        if (const std::string why = settings_->simulated ? "" : impossible_move(item_, settings_->dialect);
+            !why.empty()) {
+            throw error_of_item(why);
         }
         out.move = item_.element;
         out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
@@ -261,7 +285,7 @@ private:
         const ProgramEvent& event = item_.event;
         if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_);
             !why.empty()) {
-            throw InputError(file_, item_.line, why);
+            throw error_of_item(why);
         }
         out.action.kind = event.kind;
         out.action.number = event.number;
@@ -300,7 +324,7 @@ private:
         }
         if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
             if (const std::string why = impossible(event, *settings_); !why.empty()) {
-                report({file_, item_.line, why});
+                report(error_of_item(why));
             }
         }
         const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
@@ -315,7 +339,7 @@ private:
         }
         const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
         if (!problem.empty()) {
-            report(InputError(file_, item_.line, problem));
+            report(error_of_item(problem));
         }
         if (!problem.empty() || !spindle_.turn()) {
             return;
@@ -325,30 +349,6 @@ private:
             out.dwell_s = spindle_.change_s();
         } else {
             out.action.spindle = spindle_.turn();
-        }
-    }
-
-    // A probe and a switch that nobody watches would be run into.
-    void require_possible(MoveKind kind) const {
-        if (kind == MoveKind::probe) {
-            const int number = 2 + (item_.probe.away ? 2 : 0) + (item_.probe.required ? 0 : 1);
-            throw InputError(file_, item_.line,
-                             "G38.{}: only the simulated machine probes within a program so far; take it out, "
-                             "and let --probe end a run of its own at the contact (GPIO lines)",
-                             number);
-        }
-        if (kind == MoveKind::turning) {
-            throw InputError(
-                file_, item_.line,
-                "tapping and threads (G33, G33.1, G74, G76, G84): only the simulated machine does this so far, as no "
-                "target measures the turns of its spindle; take them out of the program");
-        }
-        if (kind == MoveKind::home) {
-            const bool grbl = rules_of(settings_->dialect).dollar_lines;
-            throw InputError(file_, item_.line,
-                             "{}: only the simulated machine homes within a program so far; begin the run with "
-                             "--home, and {}",
-                             grbl ? "$H" : "G28", grbl ? "take it out" : "--ignore G28");
         }
     }
 
@@ -368,10 +368,13 @@ private:
     ParameterMemory parameters_;
     MacroVariables variables_{parameters_, settings_->axes};
     Expression expression_{variables_};
+    std::array<WorkSystem, 99> further_{}; // of G54.1 and G154
+    FanucWords fanuc_{further_};
     std::unique_ptr<ProgramItems> items_;
     BlockInterpreter& interpreter_; // theirs
     CoolantState coolant_;
     ProgramFlow flow_;
+    CalledLines called_;
     SourceLine line_;
     ShortLine short_;
     ProgramItem<double> item_;

@@ -3,6 +3,8 @@
 
 #include "host_sim/program/program_action.hpp"
 
+#include "splinefeed/s0_program/dialects/dialect_rules.hpp"
+
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
@@ -77,6 +79,24 @@ std::string impossible(const ProgramEvent& event, const GcodeSettings& settings)
     }
     return missing->empty() ? std::string()
                             : refused(fmt::format("the machine file has no {}, or add the word to --ignore", *missing));
+}
+
+std::string impossible_move(const ProgramItem<double>& item, Dialect dialect) {
+    const bool dollar = rules_of(dialect).dollar_lines;
+    switch (item.move) {
+    case MoveKind::probe:
+        return fmt::format("G38.{}: only the simulated machine probes within a program so far; take it out, "
+                           "and let --probe end a run of its own at the contact (GPIO lines)",
+                           2 + (item.probe.away ? 2 : 0) + (item.probe.required ? 0 : 1));
+    case MoveKind::turning:
+        return "tapping and threads (G33, G33.1, G74, G76, G84): only the simulated machine does this so far, as no "
+               "target measures the turns of its spindle; take them out of the program";
+    case MoveKind::home:
+        return fmt::format("{}: only the simulated machine homes within a program so far; begin the run with "
+                           "--home, and {}",
+                           dollar ? "$H" : "G28", dollar ? "take it out" : "--ignore G28");
+    default: return {};
+    }
 }
 
 } // namespace splinefeed::host

@@ -10,6 +10,8 @@ namespace {
 constexpr std::int32_t program_positions = 5420; // of SystemParameters
 constexpr std::int32_t origins = 5221;           // of G54, and every 20 numbers of the next one
 constexpr std::int32_t behind_origins = 5390;
+constexpr std::int32_t tools = 5400; // of LinuxCNC; of Haas' controls the times of tools, of others none
+constexpr std::int32_t last_place = 5428;
 
 Decimal whole(std::int32_t value) noexcept {
     return Decimal::from_integer(value);
@@ -38,7 +40,7 @@ std::optional<Decimal> MacroVariables::mode(std::int32_t number) const noexcept 
     case 4010: return whole(modal.retract_to_r ? 99 : 98);
     case 4014: {
         const std::int32_t active = control_->offsets().active;
-        return active < 6 ? std::optional(whole(54 + active)) : std::nullopt;
+        return active < 6 && !is_further() ? std::optional(whole(54 + active)) : std::nullopt;
     }
     case 4109: return modal.feed_word();
     case 4119: return modal.speed;
@@ -47,10 +49,12 @@ std::optional<Decimal> MacroVariables::mode(std::int32_t number) const noexcept 
     }
 }
 
-// #5041 has the offsets of the tool in it, #5021 is in the units of the machine.
+// #5041 has the offsets of the tool in it, #5021 is in the units of the machine. Controls do not agree on what the
+// others are in shifted and turned coordinates.
 std::optional<Decimal> MacroVariables::position(std::int32_t block, std::int32_t index) const noexcept {
     const ModalState& modal = control_->modal();
     if (!has_axis(index) || (block == 5021 && modal.inches) ||
+        (block != 5021 && words_ != nullptr && words_->moves_program()) ||
         (block == 5041 && (modal.cutter.side != 0 || control_->offsets().tool != AxisPoint{}))) {
         return std::nullopt;
     }
@@ -86,7 +90,8 @@ bool MacroVariables::write(std::int32_t number, Decimal value) noexcept {
 bool MacroVariables::refuses(std::int32_t number, ParameterAccess access, bool owned) const noexcept {
     if (owned) {
         const std::int32_t index = (number - origins) % 20;
-        return number >= origins && number < behind_origins && index < 9 && !has_axis(index);
+        return (number >= tools && number <= last_place) || (number == origins - 1 && is_further()) ||
+               (number >= origins && number < behind_origins && index < 9 && !has_axis(index));
     }
     if (number < first_of_control) {
         return access == ParameterAccess::read && number >= first_kept &&

@@ -5,6 +5,7 @@
 #include "host_sim/program/gcode/parameter_memory.hpp"
 
 #include "splinefeed/s0_program/block_interpreter.hpp"
+#include "splinefeed/s0_program/words/fanuc_words.hpp"
 
 #include <bitset>
 #include <optional>
@@ -20,8 +21,11 @@ public:
     /// Both must outlive it.
     /// @param axes  of the machine: x, y, z, ...
     MacroVariables(ParameterMemory& memory, const std::vector<std::string>& axes) : memory_(&memory), axes_(&axes) {}
-    /// Before the first line. It must outlive this.
-    void follow(const BlockInterpreter& control) noexcept { control_ = &control; }
+    /// Before the first line. Both must outlive this. @param words  of the interpreter; null: it has none
+    void follow(const BlockInterpreter& control, const FanucWords* words = nullptr) noexcept {
+        control_ = &control;
+        words_ = words;
+    }
 
     [[nodiscard]] bool read(std::int32_t number, Decimal& out) const noexcept override;
     bool write(std::int32_t number, Decimal value) noexcept override;
@@ -39,6 +43,7 @@ private:
 
     [[nodiscard]] bool has_macros() const noexcept { return control_ != nullptr && control_->rules().macros; }
     [[nodiscard]] bool has_axis(std::int32_t index) const noexcept;
+    [[nodiscard]] bool is_further() const noexcept { return words_ != nullptr && words_->system() != nullptr; }
     [[nodiscard]] std::optional<Decimal> of_control(std::int32_t number) const noexcept;
     [[nodiscard]] std::optional<Decimal> mode(std::int32_t number) const noexcept;
     [[nodiscard]] std::optional<Decimal> position(std::int32_t block, std::int32_t index) const noexcept;
@@ -46,6 +51,7 @@ private:
     ParameterMemory* memory_;
     const std::vector<std::string>* axes_;
     const BlockInterpreter* control_ = nullptr;
+    const FanucWords* words_ = nullptr;
     std::bitset<first_of_control - first_kept> is_set_; // of #500 to #999: the program has written it
 };
 

@@ -11,14 +11,14 @@
 namespace splinefeed::host {
 
 void ProgramFlow::fail(const SourceLine& line, std::size_t at, std::string_view text) const {
-    throw WordError(file_, line.number, std::uint64_t{at} + 1U, text);
+    throw WordError(file_of(line), line.number, std::uint64_t{at} + 1U, text);
 }
 
-bool ProgramFlow::report(const InputError& error, std::uint64_t line) {
+bool ProgramFlow::report(const InputError& error, const SourceLine& line) {
     if (problems_ == nullptr) {
         throw InputError(error);
     }
-    return problems_->add(error, line);
+    return problems_->add(error, line.number, {}, file_of(line));
 }
 
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
@@ -209,7 +209,7 @@ void ProgramFlow::leave_frame() {
         parameters_->leave();
     }
     if (frame.lends && frame.modes) {
-        put_back(*frame.modes, frame.code->line(std::min(frame.at, frame.code->size()) - 1).number);
+        put_back(*frame.modes, frame.code->line(std::min(frame.at, frame.code->size()) - 1));
     }
     frames_.pop_back();
 }
@@ -291,7 +291,7 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
         count_word(out);
         execute(*place, code->line(at));
     } catch (const WordError& error) {
-        const bool is_new = report(error, out.number);
+        const bool is_new = report(error, out);
         repeated_ += is_new ? 0U : 1U;
         if (words_ > most_words || repeated_ > most_repeated) {
             abandon();
@@ -306,9 +306,9 @@ ProgramFlow::Step ProgramFlow::end_of_block() {
     const Frame& frame = frames_.back();
     if (frame.call == Call::program || frame.call == Call::macro) {
         const SourceLine& first = frame.code->line(frame.again == 1 ? 0 : frame.again);
-        report(
-            InputError(file_, first.number, std::uint64_t{1}, "the subprogram that begins here has no M99 at its end"),
-            first.number);
+        report(InputError(file_of(first), first.number, std::uint64_t{1},
+                          "the subprogram that begins here has no M99 at its end"),
+               first);
     }
     leave_frame();
     return Step::nothing;

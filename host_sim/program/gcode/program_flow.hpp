@@ -7,6 +7,7 @@
 #include "host_sim/program/gcode/flow_code.hpp"
 #include "host_sim/program/gcode/macro_word.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/subprogram_files.hpp"
 #include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
@@ -22,8 +23,8 @@
 namespace splinefeed::host {
 
 /// Lines without O words pass as they come. A subprogram, a condition or a loop is read to its end before it begins,
-/// and kept in memory while it runs. For a subprogram behind its call the rest of the input is read. Steps and depth
-/// are bounded.
+/// and kept in memory while it runs. For a subprogram behind its call the rest of the input is read. One that is a file
+/// of its own gives lines that name this file. Steps and depth are bounded.
 class ProgramFlow {
 public:
     static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
@@ -46,7 +47,7 @@ public:
     ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
                 ParameterMemory& parameters, ProblemList* problems = nullptr, FlowRules rules = {})
         : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters),
-          problems_(problems), rules_(std::move(rules)) {}
+          problems_(problems), rules_(std::move(rules)), files_(rules_.folders) {}
 
     /// Throws InputError where problems are not collected, or the input cannot be read. May wait for the input.
     Step next(SourceLine& out);
@@ -58,6 +59,8 @@ public:
     bool next_unread(SourceLine& out);
     /// Whether the program has ended itself by M99 or an alarm: next() gives no more.
     [[nodiscard]] bool has_ended() const noexcept { return stops_; }
+    /// How often the main program has begun.
+    [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
 
 private:
     struct Repeat {
@@ -107,11 +110,18 @@ private:
 
     [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
     [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
+    [[nodiscard]] bool is_deleted(std::string_view text) const noexcept {
+        return rules_.block_delete && TextCursor(text).peek() == '/';
+    }
+    /// :1000 is a number of a program where macros are Fanuc's.
+    [[nodiscard]] bool has_o_word(std::string_view text) const noexcept {
+        return (has_flow_word(text) || (rules_.macros && is_program_number(text))) && !is_deleted(text);
+    }
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return has_flow_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
+        return has_o_word(text) || has_statement(text) || read_flow_code(text, rules_).has_value();
     }
     [[nodiscard]] bool has_statement(std::string_view text) const noexcept {
-        return rules_.macros && has_macro_word(text) && !(rules_.block_delete && TextCursor(text).peek() == '/');
+        return rules_.macros && has_macro_word(text) && !is_deleted(text);
     }
     Step take_word(SourceLine& line, const std::optional<FlowWord>& known);
     Step collect(const SourceLine& line, const std::optional<FlowWord>& known);
@@ -126,7 +136,10 @@ private:
     Step end_of_block();
     void count_word(const SourceLine& line);
     /// Throws, unless problems are collected. False: it is known.
-    bool report(const InputError& error, std::uint64_t line);
+    bool report(const InputError& error, const SourceLine& line);
+    [[nodiscard]] const std::string& file_of(const SourceLine& line) const noexcept {
+        return line.file != nullptr ? *line.file : file_;
+    }
     void execute(const FlowBlock::Place& place, const SourceLine& line);
     void execute_if(const FlowBlock::Place& place, const SourceLine& line);
     void execute_call(const FlowWord& word, const SourceLine& line);
@@ -136,7 +149,7 @@ private:
     // Modes: program_flow_modes.cpp.
     void execute_modes(const FlowWord& word, const SourceLine& line);
     [[nodiscard]] SavedModes modes() const;
-    void put_back(const SavedModes& saved, std::uint64_t line);
+    void put_back(const SavedModes& saved, const SourceLine& line);
     // Macros: program_flow_macros.cpp.
     void begin_program();
     [[nodiscard]] bool keeps_program(const FlowWord& word, const SourceLine& line);
@@ -152,6 +165,7 @@ private:
     void execute_line_call(const FlowWord& word, const SourceLine& line);
     void execute_macro_call(const FlowWord& word, const SourceLine& line);
     void end_main(const FlowWord& word, const SourceLine& line);
+    void begin_again(const SourceLine& line);
     void return_to(const FlowWord& word, const SourceLine& line);
     void require_same_locals(const FlowWord& word, const SourceLine& line) const;
     struct MacroCall {
@@ -172,10 +186,15 @@ private:
     void execute_program_call(const FlowWord& word, const SourceLine& line);
     void leave_program(const FlowWord& word, const SourceLine& line);
     void leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text);
+    using Lines = std::vector<SourceLine>;
     [[nodiscard]] std::shared_ptr<const FlowBlock> find_sub(const std::string& label);
-    [[nodiscard]] std::shared_ptr<const FlowBlock> find_ahead(const std::string& label);
-    [[nodiscard]] std::shared_ptr<const FlowBlock> block_ahead(std::size_t begin, std::size_t end);
-    [[nodiscard]] std::size_t end_ahead(std::size_t begin, const FlowWord& first) const;
+    [[nodiscard]] std::shared_ptr<const FlowBlock> find_file(const std::string& label);
+    [[nodiscard]] std::vector<std::string> file_names(const std::string& label) const;
+    [[nodiscard]] std::shared_ptr<const FlowBlock> find_in(const Lines& lines, std::size_t begin,
+                                                           const std::string& label);
+    [[nodiscard]] std::shared_ptr<const FlowBlock> block_of(const Lines& lines, std::size_t begin, std::size_t end);
+    [[nodiscard]] std::optional<FlowWord> o_word(const std::string& text) const;
+    [[nodiscard]] std::size_t end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const;
     bool wait_for_input(const FlowWord& word, const SourceLine& line);
     Step read_ahead(SourceLine& out);
     [[nodiscard]] Step give_others(const FlowWord& word, SourceLine& out);
@@ -204,24 +223,27 @@ private:
     std::vector<Frame> frames_;
     ProblemList* problems_;
     FlowRules rules_;
+    SubprogramFiles files_;
     std::deque<Again> again_;
-    std::vector<SourceLine> ahead_;                           // the rest of the input, once a call has asked for it
+    Lines ahead_;                                             // the rest of the input, once a call has asked for it
     std::size_t ahead_at_ = 0;                                // the next one of them
     std::vector<std::pair<std::size_t, std::size_t>> called_; // parts of it that were called
     std::optional<Waiting> waits_;
-    std::optional<SavedModes> modes_;  // of the main program
-    std::deque<SourceLine> restoring_; // lines that put modes back
-    bool ended_ = false;               // all of the input has been read
-    std::set<std::string> lost_;       // labels whose structure was wrong: what else names them is not told
-    bool begun_ = false;               // there was a block: a number of the program would have come before it
-    bool collects_ = false;            // a block is read to its end
-    bool stops_ = false;               // the program has ended itself
-    bool passed_program_ = false;      // another numbered program begins behind the first one
-    std::deque<SourceLine> passed_;    // lines of the program before ahead_, for jumps back
-    std::size_t passed_text_ = 0;      // their characters
-    bool passed_lost_ = false;         // they were too many
-    std::size_t ahead_program_ = 0;    // where in ahead_ the program begins or goes on
-    std::string given_;                // what is to be executed in the place of a line
+    std::optional<SavedModes> modes_;          // of the main program
+    std::deque<SourceLine> restoring_;         // lines that put modes back
+    bool ended_ = false;                       // all of the input has been read
+    std::set<std::string> lost_;               // labels whose structure was wrong: what else names them is not told
+    bool begun_ = false;                       // there was a block: a number of the program would have come before it
+    bool collects_ = false;                    // a block is read to its end
+    bool stops_ = false;                       // the program has ended itself
+    bool passed_program_ = false;              // another numbered program begins behind the first one
+    std::deque<SourceLine> passed_;            // lines of the program before ahead_, for jumps back
+    std::size_t passed_text_ = 0;              // their characters
+    bool passed_lost_ = false;                 // they were too many
+    std::size_t ahead_program_ = 0;            // where in ahead_ the program begins or goes on
+    std::shared_ptr<const FlowBlock> program_; // all of it, if it runs from memory
+    std::uint64_t runs_ = 1;                   // of it that have begun
+    std::string given_;                        // what is to be executed in the place of a line
     std::shared_ptr<FlowBlock> block_;
     std::string block_label_;
     FlowKind block_kind_ = FlowKind::sub;

@@ -13,7 +13,8 @@ void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
         return;
     }
     if (sub == nullptr) {
-        fail(line, word.label_at, "there is no subprogram o{} in this file; those of other files are not read", label);
+        fail(line, word.label_at, "there is no subprogram o{} in this program; {}", label,
+             files_.searched(file_names(label)));
     }
     if (frames_.size() >= deepest) {
         fail(line, word.label_at, "calls are nested more than {} deep", deepest);
@@ -92,8 +93,8 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_program(const std::string& nu
         return nullptr;
     }
     if (code == nullptr) {
-        fail(line, word.label_at, "there is no subprogram O{} behind this line; those of other files are not read",
-             number);
+        fail(line, word.label_at, "there is no subprogram O{} behind this line; {}", number,
+             files_.searched(file_names(label)));
     }
     if (frames_.size() >= deepest) {
         fail(line, word.label_at, "calls are nested more than {} deep", deepest);
@@ -144,26 +145,70 @@ void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
     frame.repeats.clear();
 }
 
-// Null: it is not known.
+// Null: it is not known, or stands behind its call in what has not been read. LinuxCNC takes a file before what follows
+// in the program; where numbered programs are in one memory, the program's own come first.
 std::shared_ptr<const FlowBlock> ProgramFlow::find_sub(const std::string& label) {
-    const auto known = subs_.find(label);
-    return known != subs_.end() ? known->second.code : ended_ && !lost_.contains(label) ? find_ahead(label) : nullptr;
+    if (const auto known = subs_.find(label); known != subs_.end()) {
+        return known->second.code;
+    }
+    const bool own_first = rules_.programs == NumberedPrograms::fanuc && is_program_label(label);
+    std::shared_ptr<const FlowBlock> out;
+    for (const bool in_file : {!own_first, own_first}) {
+        if (out == nullptr && !lost_.contains(label) && (ended_ || (in_file && !own_first))) {
+            out = in_file ? find_file(label) : find_in(ahead_, ahead_at_, label);
+        }
+    }
+    return out;
 }
 
-// In the rest of the input, which has been read.
-std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& label) {
-    for (std::size_t i = ahead_at_; i < ahead_.size(); ++i) {
-        std::size_t wrong = 0;
-        const auto word = has_flow_word(ahead_[i].text) ? read_flow_word(ahead_[i].text, wrong) : std::nullopt;
+// As LinuxCNC names them: hole.ngc, 100.ngc; as Fanuc's and Haas' controls do: O1000.nc, O01000.nc.
+std::vector<std::string> ProgramFlow::file_names(const std::string& label) const {
+    const std::string name = label.substr(is_program_label(label) ? 1 : 0);
+    if (!is_program_label(label) || rules_.programs != NumberedPrograms::fanuc) {
+        return {name + ".ngc"};
+    }
+    std::vector<std::string> out{fmt::format("O{:0>4}.nc", name), fmt::format("O{:0>5}.nc", name)};
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+// Null: there is none, or what is wrong with it has been told.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_file(const std::string& label) {
+    std::optional<SubprogramFiles::File> file;
+    try {
+        file = files_.read(file_names(label), most_lines);
+    } catch (const InputError& error) {
+        lost_.insert(label);
+        throw WordError({}, 0, error.what());
+    }
+    auto code = file ? find_in(file->lines, 0, label) : nullptr;
+    if (file && code == nullptr && lost_.insert(label).second) {
+        throw WordError(file->name, 0, "there is no line {} in it, with which the subprogram would begin",
+                        is_program_label(label) ? label : fmt::format("o<{}> sub", label));
+    }
+    return code;
+}
+
+std::optional<FlowWord> ProgramFlow::o_word(const std::string& text) const {
+    std::size_t wrong = 0;
+    return has_o_word(text) ? read_flow_word(text, wrong) : std::nullopt;
+}
+
+// From a line on. Null: it is not there, or what is wrong with it has been told.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_in(const Lines& lines, std::size_t begin, const std::string& label) {
+    for (std::size_t i = begin; i < lines.size(); ++i) {
+        const auto word = o_word(lines[i].text);
         if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
             continue;
         }
-        const std::size_t end = end_ahead(i, *word);
+        const std::size_t end = end_in(lines, i, *word);
         if (kept_ + (end - i) >= most_lines) {
-            fail(ahead_[i], 0, "subprograms and loops have more than {} lines", most_lines);
+            fail(lines[i], 0, "subprograms and loops have more than {} lines", most_lines);
         }
-        called_.emplace_back(i, end);
-        std::shared_ptr<const FlowBlock> block = block_ahead(i, end);
+        if (lines[i].file == nullptr) {
+            called_.emplace_back(i, end);
+        }
+        std::shared_ptr<const FlowBlock> block = block_of(lines, i, end);
         if (block == nullptr) {
             lost_.insert(label);
             return nullptr;
@@ -175,10 +220,10 @@ std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& labe
 }
 
 // Without the words that are wrong, if problems are collected. Null: it has no end.
-std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std::size_t end) {
+std::shared_ptr<const FlowBlock> ProgramFlow::block_of(const Lines& lines, std::size_t begin, std::size_t end) {
     auto block = std::make_shared<FlowBlock>(++blocks_);
     for (std::size_t i = begin; i < end; ++i) {
-        add_to(*block, ahead_[i]);
+        add_to(*block, lines[i]);
     }
     if (report_problems(*block, block->link())) {
         return block;
@@ -191,14 +236,13 @@ std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std
 }
 
 // Behind the last line of a subprogram: a numbered one ends where another one begins.
-std::size_t ProgramFlow::end_ahead(std::size_t begin, const FlowWord& first) const {
-    for (std::size_t i = begin + 1; i < ahead_.size(); ++i) {
-        const std::string& text = ahead_[i].text;
+std::size_t ProgramFlow::end_in(const Lines& lines, std::size_t begin, const FlowWord& first) const {
+    for (std::size_t i = begin + 1; i < lines.size(); ++i) {
+        const std::string& text = lines[i].text;
         if (first.kind == FlowKind::program && TextCursor(text).peek() == '%') {
             return i;
         }
-        std::size_t wrong = 0;
-        const auto word = has_flow_word(text) ? read_flow_word(text, wrong) : std::nullopt;
+        const auto word = o_word(text);
         if (word && word->kind == FlowKind::program && first.kind == FlowKind::program) {
             return i;
         }
@@ -206,7 +250,7 @@ std::size_t ProgramFlow::end_ahead(std::size_t begin, const FlowWord& first) con
             return i + 1;
         }
     }
-    return ahead_.size();
+    return lines.size();
 }
 
 // False: there is no more.
@@ -219,6 +263,7 @@ bool ProgramFlow::wait_for_input(const FlowWord& word, const SourceLine& line) {
 
 // One line at a time, as whoever waits for a pipe wants to know after each.
 ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
+    out.file = nullptr;
     if (lines_->next(out)) {
         if (ahead_.size() >= most_lines) {
             throw InputError(file_, waits_->line.number,
@@ -233,7 +278,7 @@ ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
     try {
         begin(call.word, call.line);
     } catch (const WordError& error) {
-        report(error, out.number);
+        report(error, out);
     }
     return give_others(call.word, out);
 }

@@ -120,7 +120,7 @@ void ProgramFlow::end_block() {
 bool ProgramFlow::report_problems(const FlowBlock& block, const std::vector<FlowBlock::Problem>& problems) {
     for (const FlowBlock::Problem& problem : problems) {
         const SourceLine& line = block.line(problem.line);
-        report({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text}, line.number);
+        report({file_of(line), line.number, std::uint64_t{problem.at} + 1U, problem.text}, line);
     }
     return problems.empty();
 }
@@ -134,8 +134,9 @@ bool ProgramFlow::next_line(SourceLine& out, std::optional<FlowWord>& word) {
         return is_there;
     }
     if (again_.empty()) {
+        out.file = nullptr;
         const bool is_there = lines_->next(out);
-        if (is_there && rules_.macros) {
+        if (is_there && (rules_.macros || rules_.runs > 1)) {
             note_passed(out);
         }
         return is_there;
@@ -163,7 +164,7 @@ ProgramFlow::Step ProgramFlow::take_word(SourceLine& line, const std::optional<F
         begin(word, line);
         return give_others(word, line);
     } catch (const WordError& error) {
-        report(error, line.number);
+        report(error, line);
     }
     return Step::nothing;
 }

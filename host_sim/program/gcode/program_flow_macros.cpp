@@ -31,9 +31,13 @@ void ProgramFlow::begin_program() {
 }
 
 void ProgramFlow::note_passed(const SourceLine& line) {
+    if (TextCursor(line.text).peek() == '%') { // a second one would end the program
+        return;
+    }
     passed_.push_back(line);
     passed_text_ += line.text.size();
-    while (passed_.size() > most_lines_back || passed_text_ > most_text_back) {
+    const bool whole = rules_.runs > 1; // and not for jumps back alone
+    while (passed_.size() > (whole ? most_lines : most_lines_back) || (!whole && passed_text_ > most_text_back)) {
         passed_text_ -= passed_.front().text.size();
         passed_.pop_front();
         passed_lost_ = true;
@@ -55,7 +59,7 @@ void ProgramFlow::add_to(FlowBlock& block, const SourceLine& line) {
     try {
         line.whole&& has_word(line.text) ? block.add(line, word_of(line)) : block.add(line);
     } catch (const WordError& error) {
-        report(error, line.number);
+        report(error, line);
     }
 }
 
@@ -90,6 +94,7 @@ void ProgramFlow::load_program() {
     if (!report_problems(*block, block->link())) {
         block = rest_of(*block, at);
     }
+    program_ = block;
     frames_.push_back({.code = std::move(block), .at = at});
 }
 
@@ -307,12 +312,31 @@ void ProgramFlow::require_same_locals(const FlowWord& word, const SourceLine& li
 
 // M99 at the end of the main program, where controls begin it again.
 void ProgramFlow::end_main(const FlowWord& word, const SourceLine& line) {
-    stops_ = true;
     given_ = word.others;
-    if (rules_.left_out != nullptr) {
+    if (runs_ < rules_.runs) {
+        begin_again(line);
+        return;
+    }
+    stops_ = true;
+    if (rules_.left_out != nullptr && rules_.runs == 1) {
         rules_.left_out->at_line(line.number);
         rules_.left_out->add("M99");
     }
+}
+
+void ProgramFlow::begin_again(const SourceLine& line) {
+    if (passed_lost_) {
+        fail(line, 0, "a program that is to run again has more than {} lines", most_lines);
+    }
+    while (!frames_.empty()) {
+        leave_frame();
+    }
+    if (program_ == nullptr) {
+        load_program();
+        frames_.clear();
+    }
+    frames_.push_back({.code = program_});
+    ++runs_;
 }
 
 // M99 P: Fanuc's controls go on in the caller, Haas' in the subprogram itself.

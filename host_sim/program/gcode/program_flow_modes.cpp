@@ -30,7 +30,7 @@ void ProgramFlow::execute_modes(const FlowWord& word, const SourceLine& line) {
             fail(line, word.label_at,
                  "M72 cannot begin cutter compensation again; write G40 before M70, and G41 behind M72");
         }
-        put_back(*place, line.number);
+        put_back(*place, line);
         break;
     default:
         place = modes();
@@ -40,9 +40,9 @@ void ProgramFlow::execute_modes(const FlowWord& word, const SourceLine& line) {
     }
 }
 
-void ProgramFlow::put_back(const SavedModes& saved, std::uint64_t line) {
+void ProgramFlow::put_back(const SavedModes& saved, const SourceLine& line) {
     for (std::string& text : restoring_lines(saved, modes(), rules_.axes)) {
-        restoring_.push_back({std::move(text), line});
+        restoring_.push_back({std::move(text), line.number, true, line.file});
     }
 }
 

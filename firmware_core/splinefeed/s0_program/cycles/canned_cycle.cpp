@@ -3,6 +3,7 @@
 
 #include "splinefeed/s0_program/cycles/program_arc.hpp"
 #include "splinefeed/s0_program/text/decimal_text.hpp"
+#include "splinefeed/s0_program/words/polar_words.hpp"
 
 namespace splinefeed {
 
@@ -11,16 +12,17 @@ namespace {
 constexpr Decimal peck_clearance{254 * (Decimal::one / 1000)}; // 0.01 inch above the last peck
 constexpr std::int32_t most_repeats = 100000;
 constexpr std::int64_t most_pecks = 100000;
+constexpr std::int64_t whole_turn = 360 * Decimal::one; // [degrees]
 
 } // namespace
 
 // The words of the block, or those that are still in effect.
-BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
+BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, bool placed, char normal,
                                     CycleWords& words) noexcept {
-    if (fresh && !block.has(normal)) {
+    if (!placed && !block.has(normal)) {
         return block.at(ProgramError::cycle_depth_missing, CodeGroup::motion);
     }
-    if (fresh && !block.has('r')) {
+    if (!placed && !block.has('r')) {
         return block.at(ProgramError::cycle_radius_missing, CodeGroup::motion);
     }
     if (dwells() && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
@@ -55,7 +57,8 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
 }
 
 BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, const ModalState& before,
-                               const AxisLetters& letters, const AxisPoint& at, CycleWords& words) noexcept {
+                               const AxisLetters& letters, const AxisPoint& at, bool series,
+                               CycleWords& words) noexcept {
     const PlaneLetters plane = letters_of(modal.plane);
     const char normal = plane.axes[2];
     for (unsigned k = 0; k < 3; ++k) {
@@ -66,7 +69,8 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     }
     code_ = modal.motion;
     const bool fresh = before.motion != code_ || words.motion != code_; // a refused cycle has the mode, but no words
-    if (const BlockStatus status = read_words(block, modal, fresh, normal, words); !status.ok()) {
+    const bool placed = !fresh || (series && words.begun);
+    if (const BlockStatus status = read_words(block, modal, fresh, placed, normal, words); !status.ok()) {
         return status;
     }
     const auto n = static_cast<unsigned>(axes_[2]);
@@ -88,6 +92,12 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
                 modal.in_mm(block.value(letter));
         }
     }
+    polar_ = block.has_any(Block::bits("@^"));
+    if (polar_) {
+        first_step_ = modal.in_mm(block.value('@'));
+        second_step_ = {block.value('^').raw % whole_turn};
+    }
+    holes_ = 0;
     if (modal.incremental) {
         clearance_ += words.initial;
         bottom_ += clearance_;
@@ -95,10 +105,8 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     if (clearance_ < bottom_) {
         return block.at(ProgramError::cycle_below_depth, block.has('r') ? 'r' : normal);
     }
-    for (const Decimal step : {first_step_, second_step_}) {
-        if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(largest_position.raw / repeats_)) {
-            return block.at(ProgramError::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
-        }
+    if (const BlockStatus status = check_steps(block, plane.axes[0]); !status.ok()) {
+        return status;
     }
     if (pecks() && (clearance_ - bottom_).raw / words.peck.raw > most_pecks) {
         return block.at(ProgramError::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
@@ -108,12 +116,37 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     return {};
 }
 
+BlockStatus CannedCycle::check_steps(const Block& block, char first) const noexcept {
+    for (const Decimal step : {first_step_, polar_ ? Decimal{} : second_step_}) {
+        if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(largest_position.raw / repeats_)) {
+            return block.at(ProgramError::move_too_long, block.has('l') ? 'l' : first);
+        }
+    }
+    if (polar_ && hypotenuse(start_[0], start_[1]).raw + first_step_.raw * repeats_ < 0) {
+        return block.at(ProgramError::polar_unsuited, '@');
+    }
+    return {};
+}
+
+Decimal CannedCycle::radius() const noexcept {
+    const Decimal begin = hypotenuse(start_[0], start_[1]);
+    return !polar_ ? Decimal{} : first_step_.raw > 0 ? Decimal{begin.raw + first_step_.raw * repeats_} : begin;
+}
+
+// Polar steps are counted from the start, so that roundings do not add up.
+void CannedCycle::step_to(AxisPoint& place, std::int32_t steps) const noexcept {
+    const Decimal first{first_step_.raw * steps};
+    const Decimal second{second_step_.raw * steps};
+    const PlanePoint to = polar_ ? polar_step({start_[0], start_[1]}, first, second) : PlanePoint{first, second};
+    Decimal& x = place[static_cast<unsigned>(axes_[0])];
+    Decimal& y = place[static_cast<unsigned>(axes_[1])];
+    x = polar_ ? to.first : x + to.first;
+    y = polar_ ? to.second : y + to.second;
+}
+
 AxisPoint CannedCycle::end() const noexcept {
     AxisPoint at = place_;
-    for (unsigned k = 0; k < 2; ++k) {
-        const Decimal step = k == 0 ? first_step_ : second_step_;
-        at[static_cast<unsigned>(axes_[k])].raw += step.raw * repeats_;
-    }
+    step_to(at, repeats_);
     at[static_cast<unsigned>(axes_[2])] = clear_;
     return at;
 }
@@ -135,8 +168,7 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
         }
         return CycleStep::lift;
     case Phase::across:
-        place_[static_cast<unsigned>(axes_[0])] += first_step_;
-        place_[static_cast<unsigned>(axes_[1])] += second_step_;
+        step_to(place_, polar_ ? ++holes_ : 1);
         level_ = level_ < clear_ ? clear_ : level_;
         phase_ = level_ == clearance_ ? Phase::hole : Phase::to_clearance;
         hole_step_ = 0;

@@ -30,6 +30,7 @@ struct Row {
 constexpr auto machine = static_cast<std::int8_t>(CodeEffect::machine);
 constexpr auto order = static_cast<std::int8_t>(CodeEffect::flow);
 constexpr auto placing = static_cast<std::int8_t>(CodeEffect::coordinates);
+constexpr auto moving = static_cast<std::int8_t>(CodeEffect::motion);
 
 constexpr CodeEffect effect_of(const Row& row) noexcept {
     if (row.effect != of_group) {
@@ -137,24 +138,34 @@ struct CodeRows {
         Row{131, 131, without_effect, ProgramError::none, in_fanuc}, // the ends of what is refused
         Row{150, 150, without_effect, ProgramError::none, in_fanuc},
         Row{200, 200, units, ProgramError::not_in_dialect, in_klipper},
+        Row{260, 260, non_modal, ProgramError::bed_levelling_unsupported, in_printers, machine}, // its pattern
         Row{290, 290, non_modal, ProgramError::bed_levelling_unsupported, in_printers, machine},
         Row{320, 320, motion, ProgramError::thread_unsupported, in_fanuc}, // of lathes, where X is a diameter
         Row{331, 331, motion, ProgramError::thread_unsupported, in_fanuc},
+        Row{401, 401, without_effect, ProgramError::none, in_fanuc},
         Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
         Row{501, 501, without_effect, ProgramError::none, in_fanuc},
+        Row{510, 511, extension, ProgramError::none, in_fanuc},
+        Row{520, 520, extension, ProgramError::none, in_fanuc},
+        Row{541, 541, extension, ProgramError::none, in_fanuc},
         Row{650, 650, stop, ProgramError::none, in_fanuc, order}, // a call, as M98 is
         Row{670, 670, without_effect, ProgramError::none, in_fanuc},
+        Row{680, 680, extension, ProgramError::none, in_fanuc},
         Row{690, 690, without_effect, ProgramError::none, in_fanuc},
         Row{750, 750, motion, ProgramError::lathe_unsupported, in_fanuc},
         Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
         Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported, in_fanuc},
+        Row{1100, 1290, extension, ProgramError::none, in_fanuc},
+        Row{1540, 1540, extension, ProgramError::none, in_fanuc},
     };
 
     static constexpr Row m_extras[] = {
+        Row{25, 26, none, ProgramError::none, in_printers, machine}, // unknown, as 91 is: they move other machines
         Row{29, 29, without_effect, ProgramError::none, in_fanuc, machine}, // that G84 is rigid
         Row{47, 47, stop, ProgramError::macro_unsupported, in_fanuc},
         Row{70, 73, spindle, ProgramError::m_code_unknown, in_fanuc}, // of the machine's builder
         Row{70, 73, spindle, ProgramError::modal_state_unsupported, in_grbl | in_printers, placing},
+        Row{91, 91, none, ProgramError::none, in_printers, machine},
         Row{96, 96, stop, ProgramError::macro_unsupported, in_fanuc},
         Row{97, 97, stop, ProgramError::none, in_fanuc}, // of whoever reads the file
         Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl | in_printers},
@@ -190,14 +201,16 @@ struct CodeRows {
         Row{6, 6, tool_change, ProgramError::none, in_both},
         Row{7, 9, coolant, ProgramError::none, in_both},
         Row{19, 19, spindle},
+        Row{25, 26, input_output, ProgramError::m_code_unknown, 0, moving}, // Centroid's: they retract and home
         Row{30, 30, stop, ProgramError::none, in_grbl},
         Row{48, 53, override_mode, ProgramError::none, in_grbl},
         Row{60, 60, stop, ProgramError::none, in_grbl, machine},
         Row{61, 61, tool_change, ProgramError::none, in_grbl},
         Row{62, 66, input_output, ProgramError::none, in_grbl},
         Row{67, 68, input_output},
-        Row{70, 73, spindle, ProgramError::none, 0, placing}, // these are of whoever reads the file,
-        Row{98, 99, stop},                                    // and so are these
+        Row{70, 73, spindle, ProgramError::none, 0, placing},               // these are of whoever reads the file,
+        Row{91, 92, input_output, ProgramError::m_code_unknown, 0, moving}, // home, of Centroid's
+        Row{98, 99, stop},                                                  // and so are these
         Row{100, 199, input_output, ProgramError::user_code_unsupported},
     };
 };

@@ -34,6 +34,7 @@ enum class CodeGroup : std::uint8_t {
     override_mode, ///< M48 to M53
     printer,       ///< M82 M83 M104 ... of Dialect::marlin
     none,
+    extension, ///< of a WordExtension
 };
 inline constexpr unsigned code_groups = static_cast<unsigned>(CodeGroup::none);
 

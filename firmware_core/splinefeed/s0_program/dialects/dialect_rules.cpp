@@ -77,6 +77,7 @@ struct DialectTable {
         .dwell_point_seconds = true,
         .cycles_apart = true,
         .idle_cycles = true,
+        .keeps_cutter_number = true,
         .first_motion = 800,
         .arc = arc_linuxcnc,
         .arc_in_inches = arc_linuxcnc_inches,

@@ -52,6 +52,7 @@ struct DialectRules {
     bool retracts_to_r = false;       ///< cycles begin in G99, others in G98
     bool cycles_apart = false;        ///< cycles are of a group of their own: G80 leaves the motion from before them
     bool idle_cycles = false;         ///< a cycle takes P, and without repeats (L0) it makes no hole
+    bool keeps_cutter_number = false; ///< D stays for the next G41, and may stand before it
     std::int16_t first_motion = 0;    ///< in effect before the first block: ten times the G word; 800: none
     std::int16_t last_motion = 10;    ///< and behind M2 and M30
     Decimal first_feed{};             ///< before any F [mm/min]

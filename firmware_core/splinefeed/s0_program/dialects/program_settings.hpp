@@ -52,6 +52,8 @@ protected:
     ~LeftOutWords() = default;
 };
 
+class WordExtension;
+
 struct ProgramSettings {
     int axes = 3;
     /// The letter of each machine axis: X Y Z A B C U V W, or E in Dialect::marlin. A, B and C are in degrees.
@@ -66,19 +68,20 @@ struct ProgramSettings {
     /// itself. Without it the plan's feed is along the path in all axes, and feeds are converted to that.
     std::uint32_t rotary_axes = 0;
     Dialect dialect = Dialect::linuxcnc;
-    bool block_delete = false;                        ///< lines that begin with / are left out
-    bool optional_pause = true;                       ///< M1 pauses
-    bool numbered = false;                            ///< items have the number N of their line, where that is above 0
+    bool block_delete = false;    ///< lines that begin with / are left out
+    bool optional_pause = true;   ///< M1 pauses
+    bool numbered = false;        ///< items have the number N of their line, where that is above 0
+    bool ignores_unknown = false; ///< words that the dialect does not have are left out
+    bool increments = false;      ///< lengths without a decimal point count 0.001 mm, in inches 0.0001
+    int chain_quarters = 3;       ///< quarters of P that are Q of G64 where a program states none
     Decimal default_tolerance_mm{Decimal::one / 100}; ///< of G64 without P, and before the first of G61, G61.1, G64
-    int chain_quarters = 3;                           ///< quarters of P that are Q of G64 where a program states none
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;
     std::size_t ignored_count = 0;
     Decimal most_speed = Decimal::from_integer(100000); ///< of the spindle by G96 without D [1/min]
-    bool ignores_unknown = false;                       ///< words that the dialect does not have are left out
-    bool increments = false;          ///< lengths without a decimal point count 0.001 mm, in inches 0.0001
-    LeftOutWords* left_out = nullptr; ///< none: nobody asks
-    const ToolTable* tools = nullptr; ///< none: G43, G41 and G42 are refused
+    LeftOutWords* left_out = nullptr;                   ///< none: nobody asks
+    const ToolTable* tools = nullptr;                   ///< none: G43, G41 and G42 are refused
+    WordExtension* extension = nullptr; ///< Dialect::fanuc: coordinates of G52, G54.1, G68 and others; none: refused
 };
 
 } // namespace splinefeed

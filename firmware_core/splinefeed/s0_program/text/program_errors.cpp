@@ -49,6 +49,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::user_code_unsupported, "there are no user codes M100 to M199"},
     {ProgramError::pocket_unsupported, "circular pockets are not supported"},
     {ProgramError::coordinates_unsupported, "turned, scaled and further coordinates are not supported"},
+    {ProgramError::coordinates_unsuited, "words of coordinates do not go together like this"},
     {ProgramError::macro_unsupported, "calls of macros and jumps are not supported"},
     {ProgramError::printer_flow_unsupported, "loops, macros and other files are not supported"},
     {ProgramError::ignored_word_counts, "it is never left out"},
@@ -90,9 +91,9 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::integer_needed, "a whole number is needed here"},
     {ProgramError::count_out_of_range, "P is needed: a whole number from 0 to 63"},
     {ProgramError::dwell_invalid, "a dwell needs P, its time, and P is at least 0"},
-    {ProgramError::polar_unsuited, "polar coordinates (@ and ^) are of motion in G17, without X, Y, G53 and repeats by "
-                                   "L; from X0 Y0 they need ^, and "
-                                   "under G91 there is no direction there"},
+    {ProgramError::polar_unsuited, "polar coordinates (@ and ^) are of motion in G17, without X, Y and G53; from X0 "
+                                   "Y0 they need ^; under G91 there is no "
+                                   "direction there, and no repeat leads over it"},
     {ProgramError::feed_missing, "a feed move needs a feed rate F above 0, in this block or before it"},
     {ProgramError::inverse_feed_missing, "under G93 each feed move needs an F of its own, in 1/min"},
     {ProgramError::inverse_feed_cycle, "canned cycles need G94; under G93 no hole has a feed"},

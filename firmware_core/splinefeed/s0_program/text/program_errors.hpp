@@ -45,6 +45,7 @@ enum class ProgramError : std::uint8_t {
     user_code_unsupported,
     pocket_unsupported,
     coordinates_unsupported,
+    coordinates_unsuited,
     macro_unsupported,
     printer_flow_unsupported,
     ignored_word_counts,

@@ -4,6 +4,7 @@
 #include "splinefeed/s0_program/words/line_checksum.hpp"
 #include "splinefeed/s0_program/words/modal_state.hpp"
 #include "splinefeed/s0_program/words/program_comment.hpp"
+#include "splinefeed/s0_program/words/word_extension.hpp"
 
 #include <algorithm>
 
@@ -87,6 +88,11 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         kind = LineKind::left_out;
         return {};
     }
+    if (rules_->skips_unknown && cursor.peek() == 'p') { // P0 of a changer: to the others it is unknown
+        note(cursor.part(cursor.at(), std::min(cursor.at() + 2, text.size())));
+        kind = LineKind::left_out;
+        return {};
+    }
     const ProgramStatus status = read_words(cursor, control, out);
     if (!status.ok()) {
         read_rest(cursor, control, out);
@@ -117,14 +123,15 @@ ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& 
             return status;
         }
         const std::int16_t printer = out.code(CodeGroup::printer);
-        const bool pauses = rules_->one_command && out.has(CodeGroup::stop); // M0 S5 Click to go on
+        const bool pauses = rules_->one_command && out.has(CodeGroup::stop);          // M0 S5 Click to go on
+        const bool selects = rules_->one_command && out.has('t') && !out.has_codes(); // T0 S1 L0 D0 M1
         if (printer == 117) {
             out.set_comment(CommentKind::none, TextCursor::place(text.at(), text.find(';', text.at())));
             return {};
         }
-        if (printer != Block::no_code || left_out_.command || pauses) {
+        if (printer != Block::no_code || left_out_.command || pauses || selects) {
             read_free_words(text, out);
-            out.keep(pauses ? Block::bits("s") : ~0U);
+            out.keep(pauses ? Block::bits("s") : selects ? ~Block::bits("dlms") : ~0U);
         }
     }
     return {};
@@ -314,6 +321,11 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
     constexpr std::int32_t none = 30000;
     code = is_number ? code : none;
     CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    if (is_g && settings_->extension != nullptr) {
+        settings_->extension->take(code, out, info);
+    } else if (info.group == CodeGroup::extension) {
+        info.refusal = ProgramError::coordinates_unsupported;
+    }
     if (info.group == CodeGroup::none) {
         info.refusal = is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown;
     }
@@ -357,13 +369,9 @@ BlockReader::Ignored BlockReader::find_ignored(char letter, Decimal value) const
     Ignored out = Ignored::no;
     for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
         const IgnoredWord& word = settings_->ignored[i];
-        if (word.letter != letter) {
-            continue;
-        }
-        if (word.tenths == IgnoredWord::any) {
-            out = out == Ignored::no ? Ignored::by_letter : out;
-        } else if (value.raw == word.tenths * (Decimal::one / 10)) {
-            out = Ignored::by_name;
+        const bool is_any = word.tenths == IgnoredWord::any;
+        if (word.letter == letter && (is_any || value.raw == word.tenths * (Decimal::one / 10))) {
+            out = std::max(out, is_any ? Ignored::by_letter : Ignored::by_name);
         }
     }
     return out;

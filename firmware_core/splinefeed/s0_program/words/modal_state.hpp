@@ -35,6 +35,7 @@ struct ModalState {
     CutterOffset cutter{};             ///< G41, G42
     PathMode path_mode = PathMode::continuous;
     SpindleState spindle = SpindleState::stopped;
+    std::int16_t cutter_number = -1; ///< the last D, where it stays; -1: none
     std::int32_t selected_tool = 0;
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};

@@ -19,16 +19,21 @@ PlanePoint rotated(PlanePoint point, Decimal degrees) noexcept {
 }
 
 // Whether the words mean a place at all.
-bool is_suited(const Block& block, const ModalState& modal, const AxisLetters& letters, bool incremental) noexcept {
+bool is_suited(const Block& block, const ModalState& modal, const AxisLetters& letters, std::int16_t motion) noexcept {
     const std::int16_t modeless = block.code(CodeGroup::non_modal);
-    const std::int16_t motion = block.has(CodeGroup::motion) ? block.code(CodeGroup::motion) : modal.motion;
-    const bool repeats = incremental && is_cycle(motion) && block.has('l') && block.value('l').raw != Decimal::one;
     return modal.plane == Plane::xy && letters.index('x') >= 0 && letters.index('y') >= 0 &&
            !block.has_any(Block::bits("xy")) && (modeless == Block::no_code || modeless == 40) &&
-           block.code(CodeGroup::tool_length) != 431 && motion != ModalState::no_motion && !repeats;
+           block.code(CodeGroup::tool_length) != 431 && motion != ModalState::no_motion;
 }
 
 } // namespace
+
+PlanePoint polar_step(PlanePoint from, Decimal radius, Decimal degrees) noexcept {
+    const Decimal before = hypotenuse(from.first, from.second);
+    const Decimal size = before + radius;
+    const PlanePoint to{stretched(from.first, size, before), stretched(from.second, size, before)};
+    return degrees.raw == 0 ? to : rotated(to, degrees);
+}
 
 BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters& letters, PlanePoint from) noexcept {
     const bool has_radius = block.has(polar_radius);
@@ -39,30 +44,27 @@ BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters
     const std::int16_t distance = block.code(CodeGroup::distance);
     const std::int16_t units = block.code(CodeGroup::units);
     const bool incremental = distance == Block::no_code ? modal.incremental : distance == 910;
+    const std::int16_t motion = block.has(CodeGroup::motion) ? block.code(CodeGroup::motion) : modal.motion;
     ModalState lengths = modal;
     lengths.inches = units == Block::no_code ? modal.inches : units == 200;
     const Decimal stated = lengths.in_mm(block.value(polar_radius));
     const Decimal before = hypotenuse(from.first, from.second);
     const bool needs_direction = incremental || !has_angle;
     const char word = has_radius ? polar_radius : polar_angle;
-    if (!is_suited(block, modal, letters, incremental) || (needs_direction && before.raw == 0)) {
+    if (!is_suited(block, modal, letters, motion) || (needs_direction && before.raw == 0)) {
         return block.at(ProgramError::polar_unsuited, word);
     }
-    PlanePoint to = from;
-    if (needs_direction && has_radius) {
-        const Decimal size = incremental ? before + stated : stated;
-        to = {stretched(from.first, size, before), stretched(from.second, size, before)};
-    } else if (!needs_direction) {
-        to = {has_radius ? stated : before, {}};
-    }
-    to = has_angle ? rotated(to, block.value(polar_angle)) : to;
+    const Decimal more = incremental || !has_radius ? stated : stated - before;
+    PlanePoint to = needs_direction ? polar_step(from, more, block.value(polar_angle))
+                                    : rotated({has_radius ? stated : before, {}}, block.value(polar_angle));
     if (incremental) {
         to = {to.first - from.first, to.second - from.second};
     }
     const std::size_t column = block.at(ProgramError::none, word).column;
     block.set('x', lengths.in_units(to.first), column);
     block.set('y', lengths.in_units(to.second), column);
-    block.keep(~Block::bits("@^"));
+    const bool repeats = incremental && is_cycle(motion) && block.has('l');
+    block.keep(repeats ? block.letters() : ~Block::bits("@^"));
     return {};
 }
 

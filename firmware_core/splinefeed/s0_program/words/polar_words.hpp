@@ -11,7 +11,11 @@ namespace splinefeed {
 /// Under G91 they are added to the radius and the angle of the place.
 /// @param modal  before the block
 /// @param from  the place, in the program's coordinates
+/// Repeats of a cycle under G91 need @ and ^ themselves: there they stay, beside X and Y of the first hole.
 /// Error: polar_unsuited.
 BlockStatus adapt_polar(Block& block, const ModalState& modal, const AxisLetters& letters, PlanePoint from) noexcept;
+
+/// A point with that much more radius about X0 Y0, turned by the angle. @pre it is not X0 Y0
+[[nodiscard]] PlanePoint polar_step(PlanePoint from, Decimal radius, Decimal degrees) noexcept;
 
 } // namespace splinefeed

@@ -32,16 +32,18 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
     } else if (motion == 760) {
         used |= Block::bits("ehijklpqr");
     } else if (is_cycle(motion)) {
-        used |= Block::bits("lr");
+        used |= Block::bits("lr@^");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
         const bool dwells = motion == 820 || motion == 860 || motion == 890 || taps(motion);
         used |= dwells || rules.idle_cycles ? Block::bits("p") : 0;
     }
     used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
     used |= block.has(CodeGroup::without_effect) ? Block::bits("pqr") : 0;
+    used |= rules.keeps_cutter_number ? Block::bits("d") : 0;
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
     used |= block.code(CodeGroup::cutter_radius) > 400 ? Block::bits("dl") : 0;
+    used |= rules.one_command && block.has(CodeGroup::spindle) ? Block::bits("iop") : 0;
     used |= block.code(CodeGroup::spindle) == 19 ? Block::bits("pqr") : 0;
     used |= block.code(CodeGroup::spindle_mode) == 960 ? Block::bits("d") : 0;
     used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
@@ -107,7 +109,8 @@ BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept 
         std::int32_t what = 0;
         std::int32_t system = 0;
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
-            !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
+            !to_integer(block.value('p'), system) || system < (rules.macros ? 1 : 0) || system > 9 ||
+            (what == 20 && (block.has('r') || rules.macros))) { // Fanuc's are of an extension
             return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);
         }
     }

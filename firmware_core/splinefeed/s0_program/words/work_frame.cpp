@@ -3,8 +3,13 @@
 
 namespace splinefeed {
 
+const WorkSystem& WorkFrame::system() const noexcept {
+    const WorkSystem* const other = extension_ != nullptr ? extension_->system() : nullptr;
+    return other != nullptr ? *other : offsets_.systems[static_cast<unsigned>(offsets_.active)];
+}
+
 void WorkFrame::update() noexcept {
-    const Decimal angle = offsets_.systems[static_cast<unsigned>(offsets_.active)].rotation_deg;
+    const Decimal angle = system().rotation_deg;
     turned_ = angle.raw != 0 && x_ >= 0 && y_ >= 0;
     turn_ = sine_cosine(turned_ ? angle : Decimal{});
 }
@@ -20,31 +25,41 @@ void WorkFrame::turn(AxisPoint& point, const SineCosine& by, bool back) const no
 
 AxisPoint WorkFrame::to_machine(const AxisPoint& program) const noexcept {
     AxisPoint point = program;
+    if (extension_ != nullptr) {
+        extension_->turn(point, false);
+    }
     for (int k = 0; k < axes_; ++k) {
         point[static_cast<unsigned>(k)] += g92(k);
     }
     if (turned_) {
         turn(point, turn_, false);
     }
-    const WorkSystem& system = offsets_.systems[static_cast<unsigned>(offsets_.active)];
+    const WorkSystem& of = system();
     for (const unsigned k : indices(axes_)) {
-        point[k] += system.origin[k] + offsets_.tool[k];
+        point[k] += of.origin[k] + offsets_.tool[k];
     }
     return point;
 }
 
 AxisPoint WorkFrame::to_program(const AxisPoint& machine) const noexcept {
-    return to_program(machine, offsets_.active);
+    AxisPoint point = leave(system(), machine);
+    if (extension_ != nullptr) {
+        extension_->turn(point, true);
+    }
+    return point;
 }
 
 AxisPoint WorkFrame::to_program(const AxisPoint& machine, int system) const noexcept {
-    const WorkSystem& of = offsets_.systems[static_cast<unsigned>(system)];
+    return leave(offsets_.systems[static_cast<unsigned>(system)], machine);
+}
+
+AxisPoint WorkFrame::leave(const WorkSystem& of, const AxisPoint& machine) const noexcept {
     AxisPoint point = machine;
     for (const unsigned k : indices(axes_)) {
         point[k] -= of.origin[k] + offsets_.tool[k];
     }
     if (of.rotation_deg.raw != 0 && x_ >= 0 && y_ >= 0) {
-        turn(point, system == offsets_.active && turned_ ? turn_ : sine_cosine(of.rotation_deg), true);
+        turn(point, &of == &system() && turned_ ? turn_ : sine_cosine(of.rotation_deg), true);
     }
     for (int k = 0; k < axes_; ++k) {
         point[static_cast<unsigned>(k)] -= g92(k);

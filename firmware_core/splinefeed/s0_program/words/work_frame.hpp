@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/text/elementary.hpp"
 #include "splinefeed/s0_program/words/axis_letters.hpp"
+#include "splinefeed/s0_program/words/word_extension.hpp"
 #include "splinefeed/s0_program/words/work_offsets.hpp"
 
 namespace splinefeed {
@@ -11,11 +12,13 @@ namespace splinefeed {
 /// A point of all axes; in mm or degrees, whatever units the program has.
 using AxisPoint = PerAxis<Decimal>;
 
-/// machine = turned(program + G92) + origin of the work system + tool. Whoever changes offsets() calls update().
+/// machine = turned(program + G92) + origin of the work system + tool. An extension turns the program before, and may
+/// have another work system. Whoever changes offsets() calls update().
 class WorkFrame {
 public:
-    explicit WorkFrame(const AxisLetters& letters) noexcept
-        : x_(letters.index('x')), y_(letters.index('y')), axes_(letters.count()) {
+    explicit WorkFrame(const AxisLetters& letters, const WordExtension* extension = nullptr) noexcept
+        : extension_(extension), x_(static_cast<std::int8_t>(letters.index('x'))),
+          y_(static_cast<std::int8_t>(letters.index('y'))), axes_(static_cast<std::int8_t>(letters.count())) {
         update();
     }
 
@@ -26,7 +29,7 @@ public:
     [[nodiscard]] AxisPoint to_machine(const AxisPoint& program) const noexcept;
     /// The inverse within 1e-9 mm; exact without rotation.
     [[nodiscard]] AxisPoint to_program(const AxisPoint& machine) const noexcept;
-    /// The same with another work system.
+    /// The same with another work system, and without the extension.
     [[nodiscard]] AxisPoint to_program(const AxisPoint& machine, int system) const noexcept;
     /// Directions x and y of the work system, in the axes x and y of the machine.
     [[nodiscard]] const SineCosine& rotation() const noexcept { return turn_; }
@@ -44,13 +47,16 @@ public:
 
 private:
     void turn(AxisPoint& point, const SineCosine& by, bool back) const noexcept;
+    [[nodiscard]] const WorkSystem& system() const noexcept;
+    [[nodiscard]] AxisPoint leave(const WorkSystem& of, const AxisPoint& machine) const noexcept;
 
     WorkOffsets offsets_{};
+    const WordExtension* extension_;
     SineCosine turn_{};
     bool turned_ = false;
-    int x_;
-    int y_;
-    int axes_;
+    std::int8_t x_; // -1: the machine does not have it
+    std::int8_t y_;
+    std::int8_t axes_;
 };
 
 } // namespace splinefeed
