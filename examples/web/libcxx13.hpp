@@ -137,6 +137,16 @@ inline constexpr auto equal = [](auto&& a, auto&& b, auto... same) {
     return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), same...);
 };
 
+template <class First, class Second>
+struct in_in_result {
+    First in1;
+    Second in2;
+};
+inline constexpr auto mismatch = [](auto&& a, auto&& b) {
+    const auto [in_a, in_b] = std::mismatch(std::begin(a), std::end(a), std::begin(b), std::end(b));
+    return in_in_result<decltype(std::begin(a)), decltype(std::begin(b))>{in_a, in_b};
+};
+
 template <class Iterator>
 struct min_max {
     Iterator min;
