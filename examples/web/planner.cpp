@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The planner of the page: planner PROGRAM MACHINE REPORT [NAME=VALUE...]. MACHINE is a machine file, or what a grbl
+// answers to $$; empty: the default machine. What `splinefeed plan PROGRAM --summary json --report REPORT` prints
+// goes to standard output. Status: 0, 1 or 2 as there.
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/output_file.hpp"
+#include "host_sim/base/standard_streams.hpp"
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/run/runner.hpp"
+#include "host_sim/serve/grbl_machine.hpp"
+
+#include <exception>
+#include <string>
+#include <string_view>
+
+using namespace splinefeed::host;
+
+namespace {
+
+constexpr int not_finished = 1;
+constexpr int bad_input = 2;
+
+struct Option {
+    std::string_view name;
+    bool of_gcode;
+    void (*take)(const std::string& value, RunArguments& out);
+};
+constexpr Option options[] = {
+    {"dialect", true,
+     [](const std::string& value, RunArguments& out) {
+         out.path.gcode.dialect = value;
+     }},
+    {"ignore", true,
+     [](const std::string& value, RunArguments& out) {
+         out.path.gcode.ignore = value;
+     }},
+    {"tolerance", true,
+     [](const std::string& value, RunArguments& out) {
+         out.path.curve.tolerance = value;
+     }},
+    {"set", false,
+     [](const std::string& value, RunArguments& out) {
+         out.settings.push_back(value);
+     }},
+};
+
+MachineDescription machine_of(const std::string& file, const std::vector<std::string>& settings) {
+    if (file.empty()) {
+        return default_machine(settings);
+    }
+    const std::string text = read_text_file(file, largest_machine_file);
+    const bool is_listing = text.find("$110=") != std::string::npos || text.find("$100=") != std::string::npos;
+    return parse_machine(is_listing ? machine_of_grbl(text, file).text : text, file, settings);
+}
+
+RunArguments arguments_of(int count, char** words) {
+    RunArguments out;
+    out.path.input = words[1];
+    out.path.format = format_of_suffix(out.path.input.substr(out.path.input.rfind('.') + 1));
+    if (out.path.format == nullptr) {
+        throw UsageError("{}: the name does not say what it is; name a {} file", in_quotes(out.path.input),
+                         input_formats(" or ", "."));
+    }
+    out.outputs.report = words[3];
+    out.summary = SummaryKind::json;
+    for (int i = 4; i < count; ++i) {
+        const std::string_view word = words[i];
+        const std::size_t equals = word.find('=');
+        for (const Option& option : options) {
+            if (option.name == word.substr(0, equals) && (out.path.format->is_gcode() || !option.of_gcode)) {
+                option.take(std::string(word.substr(equals + 1)), out);
+            }
+        }
+    }
+    out.described = machine_of(words[2], out.settings);
+    return out;
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    try {
+        return run(arguments_of(count, words));
+    } catch (const TargetError& error) {
+        tell("splinefeed: {}\n", error.what());
+        return not_finished;
+    } catch (const std::exception& error) {
+        tell("{}\n", error.what());
+        return bad_input;
+    }
+}
