@@ -61,7 +61,8 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
 [[nodiscard]] inline std::uint64_t root_near(double about, std::uint64_t lower) noexcept {
     double estimate = 0.0;
     __asm__("sqrtsd %1, %0" : "=x"(estimate) : "x"(about));
-    const auto root = static_cast<std::int64_t>(estimate + 0.5);
+    constexpr double half = 0.5; // the sum is exact: the estimate is not negative and below 2^51
+    const auto root = static_cast<std::int64_t>(estimate + half);
     const auto rest =
         static_cast<std::int64_t>(lower - static_cast<std::uint64_t>(root) * static_cast<std::uint64_t>(root));
     return static_cast<std::uint64_t>(root + (rest > root ? 1 : 0) - (rest <= -root && root > 0 ? 1 : 0));
