@@ -20,7 +20,6 @@ import sys
 import tempfile
 
 KNOWN = {
-    "abort/g64": "G64 without P: it expects the corner of LinuxCNC's own blend, 1.3 inch off; this one's is 1.25, and it was not run since",
     "motion/g0": "it takes the acceleration from positions of six decimals: 99.99 of 100 inch/s^2 look like 101",
 }
 LIMIT_S = 300
