@@ -37,7 +37,7 @@ function options() {
     const out = [];
     for (const name of ["dialect", "ignore", "tolerance"]) {
         const value = byId(name).value.trim();
-        if (value !== "") {
+        if (value !== "" && value !== "auto") {
             out.push(`${name}=${value}`);
         }
     }

@@ -3,14 +3,13 @@
 // answers to $$; empty: the default machine. What `splinefeed plan PROGRAM --summary json --report REPORT` prints
 // goes to standard output. Status: 0, 1 or 2 as there.
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/output_file.hpp"
-#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/run/exit_status.hpp"
 #include "host_sim/run/runner.hpp"
 #include "host_sim/serve/grbl_machine.hpp"
 
-#include <exception>
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -18,28 +17,24 @@ using namespace splinefeed::host;
 
 namespace {
 
-constexpr int not_finished = 1;
-constexpr int bad_input = 2;
-
 struct Option {
     std::string_view name;
-    bool of_gcode;
     void (*take)(const std::string& value, RunArguments& out);
 };
 constexpr Option options[] = {
-    {"dialect", true,
+    {"dialect",
      [](const std::string& value, RunArguments& out) {
          out.path.gcode.dialect = value;
      }},
-    {"ignore", true,
+    {"ignore",
      [](const std::string& value, RunArguments& out) {
          out.path.gcode.ignore = value;
      }},
-    {"tolerance", true,
+    {"tolerance",
      [](const std::string& value, RunArguments& out) {
          out.path.curve.tolerance = value;
      }},
-    {"set", false,
+    {"set",
      [](const std::string& value, RunArguments& out) {
          out.settings.push_back(value);
      }},
@@ -67,11 +62,14 @@ RunArguments arguments_of(int count, char** words) {
     for (int i = 4; i < count; ++i) {
         const std::string_view word = words[i];
         const std::size_t equals = word.find('=');
-        for (const Option& option : options) {
-            if (option.name == word.substr(0, equals) && (out.path.format->is_gcode() || !option.of_gcode)) {
-                option.take(std::string(word.substr(equals + 1)), out);
-            }
+        const auto* const option = std::ranges::find(options, word.substr(0, equals), &Option::name);
+        if (option == std::end(options)) {
+            throw UsageError("there is no option {}", in_quotes(word));
         }
+        option->take(std::string(word.substr(equals + 1)), out);
+    }
+    if (out.path.format->is_gcode() && !out.path.gcode.dialect) {
+        out.path.gcode.dialect = "auto";
     }
     out.described = machine_of(words[2], out.settings);
     return out;
@@ -80,13 +78,5 @@ RunArguments arguments_of(int count, char** words) {
 } // namespace
 
 int main(int count, char** words) {
-    try {
-        return run(arguments_of(count, words));
-    } catch (const TargetError& error) {
-        tell("splinefeed: {}\n", error.what());
-        return not_finished;
-    } catch (const std::exception& error) {
-        tell("{}\n", error.what());
-        return bad_input;
-    }
+    return exit_status([&] { return run(arguments_of(count, words)); });
 }

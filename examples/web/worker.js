@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plans one program, in a thread of its own: whoever does not want to wait ends it. `planner` is emscripten's module.
-onmessage = async ({data}) => {
+async function plan(data) {
     const printed = [];
     const told = [];
     const module = await planner({wasmBinary: data.wasm, print: (line) => printed.push(line), printErr: (line) => told.push(line)});
@@ -20,13 +20,16 @@ onmessage = async ({data}) => {
             told.push(text);
         }
     };
-    const words = [data.name, "", "/report.html", ...data.options];
+    const report = "/tmp/report.html"; // not beside the program, whose name is anything
+    const words = [data.name, "", report, ...data.options];
     module.FS.writeFile(data.name, data.program);
     if (data.machine !== "") {
         words[1] = "machine";
         module.FS.writeFile(words[1], data.machine);
     }
     const status = module.callMain(words);
-    const report = module.FS.analyzePath("/report.html").exists ? module.FS.readFile("/report.html") : null;
-    postMessage({status, summary: printed.join("\n"), told, report});
-};
+    postMessage({status, summary: printed.join("\n"), told, report: module.FS.analyzePath(report).exists ? module.FS.readFile(report) : null});
+}
+
+// Also where the memory does not suffice, somebody waits for an answer.
+onmessage = ({data}) => plan(data).catch((error) => postMessage({status: 1, told: [`splinefeed: ${error.message ?? error}`], summary: "", report: null}));

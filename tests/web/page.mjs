@@ -97,6 +97,20 @@ const tests = {
         assert.match((await planned(page, picture)).said, /does not say what it is/);
         assert.equal(await page.isHidden("#result"), true);
     },
+    async "an option that the program does not have is refused, and any name of a file gets an answer"() {
+        const { page } = await opened();
+        const refused = await planned(page, resolve("examples/path61.csv"), { ignore: "M104" });
+        assert.equal(refused.status, "2");
+        assert.match(refused.said, /only a program in G-code has it/);
+        for (const name of ["dev", "machine", "report.html"]) {
+            const file = join(folder, name);
+            writeFileSync(file, "<p>no program</p>");
+            const answer = await planned(page, file);
+            assert.notEqual(answer.status, "0");
+            assert.match(answer.said, /^splinefeed: /);
+            assert.equal(await page.isHidden("#result"), true);
+        }
+    },
     async "what a grbl answers to $$ is a machine"() {
         const { page } = await opened();
         const listing = "$100=80\n$101=80\n$102=400\n$110=6000\n$111=6000\n$112=600\n$120=300\n$121=300\n$122=50\n$130=300\n$131=300\n$132=80\n";
