@@ -252,10 +252,7 @@ TEST_CASE("the way back ends where an axis was locked, and not where the machine
 
 TEST_CASE("a machine that waits before a move turns, comes back, and waits again", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
-    REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
-    tpc_move waits = line_to(20.0, 0.0, 50.0);
-    waits.stands_before = 1;
-    REQUIRE(control.add(waits) == 0);
+    add_waiting(control);
     while (control.out.waits == 0) {
         control.period();
     }
@@ -269,12 +266,7 @@ TEST_CASE("a machine that waits before a move turns, comes back, and waits again
     for (int n = 0; n < 2000; ++n) {
         control.period();
     }
-    CHECK(control.out.waits == 1);
-    CHECK(control.out.first == 1);
-    CHECK(control.out.position[0] == Approx(10.0).margin(1e-9));
-    control.input.may_begin = 1;
-    control.until_over();
-    CHECK(control.out.position[0] == 20.0);
+    expect_waiting(control);
 }
 
 TEST_CASE("at the end of its moves a held machine turns, and does not jump there", "[linuxcnc]") {

@@ -111,4 +111,22 @@ private:
     std::unique_ptr<TpMotion> motion_;
 };
 
+/// Two moves of 10 mm. Before the second one the machine stands, and waits until it may begin.
+inline void add_waiting(Control& control) {
+    REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
+    tpc_move waits = line_to(20.0, 0.0, 50.0);
+    waits.stands_before = 1;
+    REQUIRE(control.add(waits) == 0);
+}
+
+/// It waits there, and makes the second move when it may.
+inline void expect_waiting(Control& control) {
+    CHECK(control.out.waits == 1);
+    CHECK(control.out.first == 1);
+    CHECK(control.out.position[0] == Approx(10.0).margin(1e-9));
+    control.input.may_begin = 1;
+    control.until_over();
+    CHECK(control.out.position[0] == 20.0);
+}
+
 } // namespace linuxcnc_test

@@ -240,19 +240,11 @@ TEST_CASE("moves of no length are left out, and what cannot be is refused before
 
 TEST_CASE("a move that waits for the spindle begins when it may, after a stop", "[linuxcnc]") {
     Control control(machine_of(3, 0.001, 0.0));
-    REQUIRE(control.add(line_to(10.0, 0.0, 50.0)) == 0);
-    tpc_move waits = line_to(20.0, 0.0, 50.0);
-    waits.stands_before = 1;
-    REQUIRE(control.add(waits) == 0);
+    add_waiting(control);
     for (int i = 0; i < 1000; ++i) {
         control.period();
     }
-    CHECK(control.out.waits == 1);
-    CHECK(control.out.first == 1);
-    CHECK(control.out.position[0] == Approx(10.0).margin(1e-9));
-    control.input.may_begin = 1;
-    control.until_over();
-    CHECK(control.out.position[0] == 20.0);
+    expect_waiting(control);
     CHECK(control.use() <= 1.0001);
 }
 
