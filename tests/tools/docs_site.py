@@ -35,7 +35,7 @@ class Page(html.parser.HTMLParser):
 
 def loaded_by_style(text):
     """What a style sheet loads; data: lies within it."""
-    return [url for url in re.findall(r"(?:url\(|@import)\s*[\"']?([^\"')\s;]+)", text) if not url.startswith(("data:", "#"))]
+    return [url for url in re.findall(r"(?:url\(|@import\s+(?!url))\s*[\"']?([^\"')\s;]+)", text) if not url.startswith(("data:", "#"))]
 
 
 def bad_places(site, file, places, pages):
