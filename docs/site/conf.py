@@ -8,6 +8,7 @@ from pygments.lexers.special import TextLexer
 project = html_title = "splinefeed"
 html_theme = "sphinx_rtd_theme"  # everything that its pages load lies beside them
 html_extra_path = ["index.html"]
+html_static_path = html_css_files = ["site.css"]
 html_copy_source = html_show_sphinx = html_show_copyright = html_use_index = smartquotes = False
 extensions = ["myst_parser"]
 root_doc = "README"
@@ -21,9 +22,10 @@ myst_disable_syntax = ["amsmath", "myst_block_break", "myst_line_comment", "myst
 def contents(pages, listed):
     """(heading, pages) of each list: those of docs/README.md in its order, then the others."""
     named = {"README"}
-    for section in re.split(r"^#+ ", listed, flags=re.M):
+    for section in re.split(r"^#+ ", listed.replace("\n", "\n[](README.md)\n", 1), flags=re.M):  # itself first
         heading, _, text = section.partition("\n")
-        found = ["docs/" + link for link in re.findall(r"\]\((?!\.\.)([^)#:]+)\.md\)", text) if "docs/" + link in pages - named]
+        links = ["docs/" + link for link in re.findall(r"\]\((?!\.\.)([^)#:]+)\.md\)", text)]
+        found = [page for page in dict.fromkeys(links) if page in pages - named]
         yield heading, found
         named.update(found)
     yield "The project", sorted(pages - named, key=lambda page: (page.count("/"), page))
