@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Corners blended within a tolerance against stops: cycle times of both jerk-limited plans, as docs/explanation/feed.md states them.
+"""Corners blended within a tolerance against stops: cycle times of both jerk-limited plans, as docs/explanation/feed_derivation.md states them.
 
     bench/blended.py [--tool build/release/bin/splinefeed]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times with limited jerk, planned in double and in float, as the tables of docs/explanation/feed.md: of a curve, of random splines, or of splines through unevenly
+"""Cycle times with limited jerk, planned in double and in float, as the tables of docs/explanation/feed.md and feed_derivation.md: of a curve, of random splines, or of splines through unevenly
 spaced points, against the least time
 that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy). Also times of known motions and straight moves over
 the known ones, and pairs of which the second may not be slower."""

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Makes every picture of the docs from data: make.py BUILD_DIRECTORY, or compares them with what is there: make.py --check BUILD_DIRECTORY.
 
-What late.svg and linuxcnc_corner.svg show was measured: files beside them have the measurements. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
-chromium, those of examples/python by matplotlib. Their fonts differ from machine to machine: they are made, and not compared."""
+What late.svg, linuxcnc_corner.svg and broken_link.svg show was measured: files beside them have the measurements. Numbers may differ by a tenth of a unit of the drawing. report.png is made by
+chromium, motion.png and those of examples/python by matplotlib. Their fonts differ from machine to machine: they are made, and not compared."""
 import os
 import pathlib
 import re
@@ -27,6 +27,9 @@ def pictures(tool):
     yield "tolerance.svg", drawn("tolerance.py", tool)
     yield "late.svg", drawn("late.py", "docs/pictures/late.json")
     yield "linuxcnc_corner.svg", drawn("linuxcnc_corner.py", "docs/pictures/linuxcnc_corner.json")
+    yield "broken_link.svg", drawn("tutorials.py", "broken_link", "docs/pictures/broken_link.json")
+    for name in ("first_path", "steered", "edges", "windows"):
+        yield f"{name}.svg", drawn("tutorials.py", name, tool)
     yield "linuxcnc_times.svg", drawn("linuxcnc_times.py", "hal/linuxcnc/README.md")
 
 
@@ -51,7 +54,7 @@ def main():
             stale.append(f"docs/pictures/{name} is not what is drawn today; docs/pictures/make.py {sys.argv[-1]} makes it anew")
     if not check:
         subprocess.run([HERE / "report.mjs", build], check=False)
-        for example in sorted((ROOT / "examples/python").glob("*.py")):
+        for example in [HERE / "motion.py", *sorted((ROOT / "examples/python").glob("*.py"))]:
             subprocess.run([sys.executable, example, HERE / f"{example.stem}.png"], check=False,
                            env=dict(os.environ, PYTHONPATH=str(build / "python"), MPLBACKEND="Agg"))
     stale += [f"docs/pictures/{file.name}: nothing makes it" for file in HERE.glob("*.svg") if file.name not in names]

@@ -5,7 +5,7 @@
     gates.py TOOL PROGRAM            PROGRAM: a path in examples/, or `uneven`: points 0.02 to 20 mm apart;
                                      or `known`, `known_without_jerk`, `straight`, `monotone`: plans held against known times and each other (time_gates.py)
 
-With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md has figures of. --keep FOLDER: programs and machine
+With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md and feed_derivation.md have figures of. --keep FOLDER: programs and machine
 files stay there."""
 import argparse
 import contextlib
@@ -52,7 +52,7 @@ def problems(tool, program, axes, limits, folder):
     uneven = Path(program).stem == "uneven"
     jump = "curvature_jump_1_mm" if uneven else "curvature_jump"
     period_s = 1e-3
-    smoothing_mm = period_s**2 * acceleration * len(axes) ** 0.5 / 6.0  # docs/explanation/feed.md, step 7 of the proof
+    smoothing_mm = period_s**2 * acceleration * len(axes) ** 0.5 / 6.0  # docs/explanation/feed_derivation.md, step 7 of the proof
     gates = [
         ("cycle time over the least", found["over_least"], OVER_LEAST[kind]),
         ("limits used on the samples", use, LIMIT_USE),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Whether every relative link and #anchor of the Markdown pages resolves, no page has a mark like @TIME@ left, every `docs/...`
-that any file names exists, a page links to each page, and the program has the messages that docs/troubleshooting.md explains."""
+that any file names exists, a page links to each page, the glossary is in the order of the alphabet, and the program has the messages that docs/troubleshooting.md explains."""
 import pathlib
 import re
 import subprocess
@@ -81,6 +81,12 @@ def unknown_messages(page):
                     yield f"{page}:{number}: no source says '{part}'"
 
 
+def out_of_order(page):
+    """Terms of the glossary that do not stand behind the one before in the alphabet."""
+    terms = re.findall(r"^\| ([^|]+?) \|", (ROOT / page).read_text(), re.MULTILINE)[1:]
+    return [f"{page}: '{term}' stands behind '{before}'" for before, term in zip(terms, terms[1:]) if term.lower() <= before.lower()]
+
+
 def main():
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True,
                             capture_output=True, text=True).stdout.split("\n")
@@ -88,6 +94,7 @@ def main():
     pages = [name for name in files if name.endswith(".md")]
     bad = [line for page in pages for line in bad_links(page)] + list(bad_names(files)) + unreachable(pages)
     bad += unknown_messages("docs/troubleshooting.md")
+    bad += out_of_order("docs/reference/glossary.md")
     print("\n".join(bad) if bad else f"{len(pages)} pages: all links resolve")
     return 1 if bad else 0
 

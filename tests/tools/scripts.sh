@@ -3,7 +3,7 @@
 # All shell scripts parse, and shellcheck, where it is installed, finds nothing.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-scripts=(run check .ci/run cmake/packages cmake/packaging/*.sh tests/*/*.sh tests/*/*/*.sh)
+scripts=(run check .ci/run cmake/packages cmake/packaging/*.sh docs/*/*.sh tests/*/*.sh tests/*/*/*.sh)
 for script in "${scripts[@]}"; do
     bash -n "$script"
 done

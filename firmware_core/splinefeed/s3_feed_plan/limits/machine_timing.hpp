@@ -13,7 +13,7 @@ namespace detail {
 inline constexpr double corner_share = 2e-5;
 
 /// The largest jerk that the emitted motion can have, whatever is planned. In a segment it goes at most from one
-/// acceleration to the opposite one (feed.md, step 7 of the proof). A jerk limit above it does not bind.
+/// acceleration to the opposite one (feed_derivation.md, step 7 of the proof). A jerk limit above it does not bind.
 constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexcept {
     const double jerk = (axis.max_acceleration_mm_s2 + axis.braking_mm_s2()) / segment_s;
     return jerk < 1073741824.0 ? jerk : 1073741824.0; // above every limit, and in the range of a Fixed
