@@ -82,6 +82,38 @@ string(REGEX REPLACE "\n \n" "\n .\n" licence "${licence}")
 string(REGEX REPLACE "[ .\n]+$" "." licence "${licence}")
 string(REGEX REPLACE "^MIT License" "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\nCopyright: 2026 the splinefeed authors\nLicense: Expat" licence "${licence}")
 string(REGEX REPLACE "License: Expat\n \\.\n Copyright [^\n]*\n \\.\n" "License: Expat\n" licence "${licence}")
+# third_party(COMPONENT NAME PACKAGE): what is compiled into a component, with the licence that PACKAGE, of which it is taken, has.
+function(third_party component name package)
+    file(READ /usr/share/doc/${package}/copyright text)
+    string(REGEX MATCH "Files: +\\*\nCopyright: *([^\n]+(\n +[^\n]+)*)\nLicense: *([^\n]+)" ignored "${text}")
+    set(holders "${CMAKE_MATCH_1}")
+    set(terms "${CMAKE_MATCH_3}")
+    set(licence "${${component}_licence}\n\nFiles: ${name}\nCopyright: ${holders}\nLicense: ${terms}")
+    string(REPLACE "+" "\\+" terms "${terms}")
+    if(NOT terms STREQUAL Expat)
+        string(REGEX MATCH "\nLicense: *${terms}\n(( [^\n]*\n)+)" ignored "${text}\n")
+        string(STRIP "${CMAKE_MATCH_1}" whole)
+        string(APPEND licence "\n ${whole}")
+    endif()
+    set(${component}_licence "${licence}" PARENT_SCOPE)
+endfunction()
+set(tool_licence "
+
+Files: three.js
+Copyright: 2010-2024 three.js authors
+License: Expat
+
+Files: uPlot
+Copyright: 2022 Leon Sorokin
+License: Expat")
+third_party(tool CLI11 libcli11-dev)
+third_party(tool nlohmann-json nlohmann-json3-dev)
+third_party(tool toml++ libtomlplusplus-dev)
+if(SPLINEFEED_HAS_PYTHON)
+    third_party(python nlohmann-json nlohmann-json3-dev)
+    third_party(python toml++ libtomlplusplus-dev)
+    third_party(python pybind11 pybind11-dev)
+endif()
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER ${component} upper)

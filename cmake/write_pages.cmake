@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# cmake -DTOOL= -DFOLDER= -P write_pages.cmake: the man pages of the tool and of its commands, compressed without a time as Debian has
+# cmake -DTOOL= [-DEMULATOR=] -DFOLDER= -P write_pages.cmake: the man pages of the tool and of its commands, compressed without a time as Debian has
 # them, its completion of bash, and the schemas of its files.
 set(pages ${FOLDER}/man1)
 file(MAKE_DIRECTORY ${pages})
-execute_process(COMMAND ${TOOL} --completion OUTPUT_FILE ${FOLDER}/splinefeed COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${EMULATOR} ${TOOL} --completion OUTPUT_FILE ${FOLDER}/splinefeed COMMAND_ERROR_IS_FATAL ANY)
 file(STRINGS ${FOLDER}/splinefeed commands REGEX "^        [a-z]+\\) options=")
 list(TRANSFORM commands REPLACE "^ *([a-z]+)\\).*" "\\1")
 foreach(command splinefeed ${commands})
@@ -11,10 +11,10 @@ foreach(command splinefeed ${commands})
     if(command STREQUAL splinefeed)
         set(page ${pages}/splinefeed.1)
     endif()
-    execute_process(COMMAND ${TOOL} --man ${command} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${EMULATOR} ${TOOL} --man ${command} OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
     execute_process(COMMAND gzip -9nf ${page} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 file(MAKE_DIRECTORY ${FOLDER}/schemas)
 foreach(kind machine profile map events summary)
-    execute_process(COMMAND ${TOOL} schema ${kind} OUTPUT_FILE ${FOLDER}/schemas/${kind}.schema.json COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${EMULATOR} ${TOOL} schema ${kind} OUTPUT_FILE ${FOLDER}/schemas/${kind}.schema.json COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -35,7 +35,7 @@ inline constexpr int travel_mm[axes][2] = {{0, 300}, {0, 200}, {-80, 0}};
 
 // At compile time: the chip does no arithmetic in double.
 inline constexpr auto limits = splinefeed::MotionLimits<Real>::make(machine);
-static_assert(limits.has_value(), "MotionLimits::make says which number is out of range");
+static_assert(splinefeed::no_error<limits.error()>());
 
 inline constexpr std::uint32_t tick_ticks = board::tick_us * splinefeed::ticks_per_us;
 static_assert(limits->segment_ticks == board::segment_us * splinefeed::ticks_per_us, "one segment a sample");

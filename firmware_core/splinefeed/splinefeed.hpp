@@ -3,6 +3,8 @@
 // feed segments into steps. It does not include the curves that need all points at once (splines/), nor surfaces.
 #pragma once
 
+#include "splinefeed/base/language.hpp"
+
 // Waypoints to curves.
 #include "splinefeed/s1_curve/bspline_curve.hpp"
 #include "splinefeed/s1_curve/catmull_rom.hpp"

@@ -2,6 +2,8 @@
 // All ports that are linked. Each port library of splinefeed::hal defines a macro that enables its headers here.
 #pragma once
 
+#include "splinefeed/base/language.hpp"
+
 #include "splinefeed/hal/motion_port.hpp"
 #include "splinefeed/hal/stop_sequence.hpp"
 

@@ -122,9 +122,11 @@ void OutputFile::open() {
 void OutputFile::open_temporary() {
     replaces_ = true;
 #ifdef O_TMPFILE
-    descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, new_file_mode);
-    if (descriptor_ >= 0) {
-        return;
+    if (access("/proc/self/fd", X_OK) == 0) { // by which name_temporary() gives it a name
+        descriptor_ = ::open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, new_file_mode);
+        if (descriptor_ >= 0) {
+            return;
+        }
     }
 #endif
     const std::lock_guard lock(named().mutex);

@@ -108,8 +108,13 @@ void take_format(Job& job, const std::string& format) {
         throw UsageError("--format {}: it must be one of {}{}", in_quotes(format), input_formats(", "),
                          meant != nullptr ? fmt::format("; did you mean '{}'?", meant->name) : "");
     } else {
-        throw UsageError("{}: the name does not say what it is; name a {} file, or add --format {}",
-                         in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|"));
+        constexpr std::array<std::string_view, 8> of_shapes{"dxf", "svg", "stl", "step", "stp", "3mf", "obj", "amf"};
+        throw UsageError(
+            "{}: {}; name a {} file, or add --format {}", in_quotes(job.run.path.input),
+            std::ranges::find(of_shapes, CLI::detail::to_lower(suffix)) != of_shapes.end()
+                ? "a drawing or a model has no path for a tool, a CAM program or a slicer makes G-code of it"
+                : "the name does not say what it is",
+            input_formats(" or ", "."), input_formats("|"));
     }
 }
 
@@ -275,8 +280,13 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
     describe_general(app, general);
     describe_commands(app, job, typed);
+    std::vector<const char*> arguments(argv, argv + argc);
+    if (argc > 1 && std::string_view(argv[1]) == "help") { // "help run", as other tools have it
+        arguments.erase(arguments.begin() + 1);
+        arguments.push_back("--help");
+    }
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();
         return Answer{chosen.empty() ? app.help() : chosen.front()->help("splinefeed")};

@@ -40,7 +40,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
                    "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
     app.add_option("--degree", curve.degree,
                    "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
-    app.add_option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
+    app.add_option("--knots", curve.knots, "uniform or averaged (default averaged), of bspline-interpolation");
     app.add_option(
         "--tension", curve.tension,
         "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
@@ -81,7 +81,7 @@ void add_gcode_options(CLI::App& app, Job& job) {
     GcodeArguments& gcode = job.run.path.gcode;
     in_group(app, "G-code");
     app.add_option("--dialect", gcode.dialect,
-                   "linuxcnc, grbl, marlin, fanuc, klipper: whose words they are (default linuxcnc); auto: as the "
+                   "linuxcnc, grbl, marlin, fanuc, klipper or auto: whose words they are (default linuxcnc); auto: as the "
                    "first 200 lines say");
     app.add_option("--ignore", gcode.ignore,
                    "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all of the machine's that "
@@ -152,7 +152,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                    "E.json: the programmed path as elements; of G-code and elements");
     app.add_option("--report", job.run.outputs.report,
                    "R.html: a page that shows the motion, its limits and the program in a browser");
-    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)");
+    app.add_option("--summary", typed.summary, "text or json (default text), on standard output");
     app.add_flag_callback(
         "--no-advice", [&job] { job.run.helps = false; },
         "leave out what would help: for it the program is planned again for each limit that binds");
@@ -169,7 +169,7 @@ void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
     app.add_option("--ball-radius", arguments.ball_radius,
                    "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
     app.add_option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
-    app.add_option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
+    app.add_option("--pattern", arguments.pattern, "zigzag or one-way (default zigzag), lifted for the way back");
     app.add_option("--lift", arguments.lift,
                    "one-way: height of the way back above the highest control point [mm] (default 5)");
     app.add_option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");

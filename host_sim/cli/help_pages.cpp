@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -29,6 +31,15 @@ std::vector<std::string> names_of(const CLI::Option& option) {
         names.push_back("--" + name);
     }
     return names;
+}
+
+/// The words that a description begins with, "check, move or here: ...": what may stand behind the option. Empty where
+/// it has none.
+std::string offered(const CLI::Option& option) {
+    static const std::regex words("([a-z0-9-]+(?:(?:, | or )[a-z0-9-]+)+)(?:[:;]| \\(|$).*");
+    const std::string text = option.get_description();
+    std::smatch found;
+    return std::regex_match(text, found, words) ? std::regex_replace(found.str(1), std::regex(", | or "), " ") : "";
 }
 
 /// A text as a line of a man page, which would take \ and - for its own, and a line with . or ' for an order.
@@ -122,28 +133,38 @@ std::string man_page(const CLI::App& app, std::string_view command) {
 std::string bash_completion(const CLI::App& app) {
     std::string names;
     std::string cases;
+    std::map<std::string, std::string> offers; // behind an option, or behind a command that takes a word
     for (const CLI::App* command : commands_of(app)) {
         std::vector<std::string> options;
         for (const CLI::Option* option : command->get_options()) {
             const std::vector<std::string> some = names_of(*option);
             options.insert(options.end(), some.begin(), some.end());
+            if (const std::string words = offered(*option); !words.empty()) {
+                offers[some.empty() ? command->get_name() : some.front()] = words;
+            }
         }
         names += (names.empty() ? "" : " ") + command->get_name();
         cases += fmt::format("        {}) options=\"{}\" ;;\n", command->get_name(), fmt::join(options, " "));
+    }
+    std::string words;
+    for (const auto& [before, some] : offers) {
+        words += fmt::format("            {}) options=\"{}\" ;;\n", before, some);
     }
     return fmt::format("# The completion of bash for {0}: source <({0} --completion)\n"
                        "_{0}() {{\n"
                        "    local word=${{COMP_WORDS[COMP_CWORD]}} options=\"--help --version\"\n"
                        "    case ${{COMP_WORDS[1]}} in\n{2}    esac\n"
                        "    if ((COMP_CWORD == 1)) && [[ $word != -* ]]; then options=\"{1}\"; fi\n"
-                       "    if ((COMP_CWORD == 1)) || [[ $word == -* ]]; then\n"
+                       "    case ${{COMP_WORDS[COMP_CWORD - 1]}} in\n{3}            *) [[ $word == -* ]] || "
+                       "((COMP_CWORD == 1)) || options=\"\" ;;\n    esac\n"
+                       "    if [[ $options ]]; then\n"
                        "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
                        "    else\n"
                        "        mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
                        "    fi\n"
                        "}}\n"
                        "complete -o filenames -F _{0} {0}\n",
-                       app.get_name(), names, cases);
+                       app.get_name(), names, cases, words);
 }
 
 } // namespace splinefeed::host

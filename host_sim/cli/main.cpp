@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     return exit_status([&] {
         const auto parsed = parse_command_line(argc, argv);
         if (const Answer* const answer = std::get_if<Answer>(&parsed)) {
+            static_cast<void>(std::signal(SIGPIPE, SIG_DFL)); // whoever has read enough of a page ends it, as of any
             print_whole(answer->text, "the answer");
             return 0;
         }

@@ -4,32 +4,15 @@
 # and a project against the library, and removes them without a trace. As root.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
-if ((EUID != 0)); then skip "needs root"; fi
-need debootstrap lintian dpkg-shlibdeps
-# shellcheck disable=SC2016 # $(REPO_URI) is for apt to expand
-mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
-if [[ -z $mirror ]]; then skip "no Debian mirror is configured"; fi
-# shellcheck source=/dev/null
-suite=$(source /etc/os-release && echo "$VERSION_CODENAME")
+source tests/install/bare_debian.sh
 
+need lintian
 scratch=$(mktemp -d)
-root=$scratch/root
-clean_up() {
-    for point in proc dev; do umount --lazy "$root/$point" 2>/dev/null || true; done
-    rm -rf --one-file-system "$scratch"
-}
-trap clean_up EXIT
-
+bare_debian "$scratch"
 cmake/packaging/debian.sh "$scratch/packages" >"$scratch/log" 2>&1 || { tail -n 30 "$scratch/log"; exit 1; }
 ls -l "$scratch"/packages/*.deb
 lintian --allow-root --fail-on error --tag-display-limit 0 "$scratch"/packages/*.deb
 
-debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror" >"$scratch/log" 2>&1 || { tail -n 30 "$scratch/log"; exit 1; }
-mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-cp --recursive --no-clobber /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
-cp /etc/resolv.conf /etc/hosts "$root/etc/"
-mkdir "$root/packages" "$root/work"
 cp "$scratch"/packages/*.deb "$root/packages/"
 # That of LinuxCNC would bring half a desktop with it: what it has is looked at here.
 for deb in "$root"/packages/linuxcnc-splinefeed_*.deb; do
@@ -39,7 +22,6 @@ for deb in "$root"/packages/linuxcnc-splinefeed_*.deb; do
     dpkg-deb --field "$deb" Depends | grep 'linuxcnc-uspace (>= .*linuxcnc-uspace (<< ' >/dev/null
     rm "$deb"
 done
-in_root() { chroot "$root" env LC_ALL=C HOME=/root DEBIAN_FRONTEND=noninteractive bash -ec "$1"; }
 # What the packages bring with them is there before, and stays.
 in_root "apt-get update --quiet=2
 depends() { for deb in /packages/*.deb; do dpkg-deb --field \$deb Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//; s/ *|.*//'; done | sort -u; }

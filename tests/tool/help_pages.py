@@ -38,8 +38,14 @@ def main():
             if names != found:
                 bad.append(f"{command}: the {where} has {sorted(found ^ names)} in the one or in the other alone")
         bad += [f"splinefeed: its page does not name {command}"] if f"\\fBsplinefeed-{command}\\fR(1)" not in said("--man", "splinefeed") else []
-    if completed(script, "run", "--tr") != {"--trace"}:
-        bad.append(f"run --tr: {completed(script, 'run', '--tr')}")
+    for words, meant in ((("run", "--dialect", ""), {"linuxcnc", "grbl", "marlin", "fanuc", "klipper", "auto"}), (("check", "--dialect", "gr"), {"grbl"}),
+                         (("run", "--start", ""), {"check", "move", "here"}), (("run", "--tr"), {"--trace"}), (("run", "--trace", "/etc/host"), {"/etc/hosts", "/etc/hostname"})):
+        if (found := completed(script, *words)) != meant:
+            bad.append(f"{words}: {found}")
+    for command in commands:
+        bad += [f"help {command} is not {command} --help"] if said("help", command) != said(command, "--help") else []
+    ended = subprocess.run(f"'{TOOL}' --man run 2>&1 | head -n 1", shell=True, capture_output=True, text=True, check=True).stdout.splitlines()
+    bad += [f"--man run | head: {ended}"] if len(ended) != 1 else []
     if shutil.which("man"):
         for command in ("splinefeed", *commands):
             warned = subprocess.run(["man", "--warnings", "-l", "-"], input=said("--man", command), capture_output=True, text=True, check=False).stderr

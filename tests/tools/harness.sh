@@ -42,6 +42,10 @@ tests 'echo; echo "  2  [#one]"; exit 1' 'echo "SKIPPED: no reason"; echo "All t
 list
 ctest --test-dir "$scratch" >"$scratch/told"
 said 1 'area/one .*\*\*\*Skipped' "$(<"$scratch/told")"
+ctest --test-dir "$scratch" --verbose | awk -f tests/tools/ctest_output.awk >"$scratch/told"
+said 1 'NOT TESTED' "$(<"$scratch/told")"
+said 2 'SKIPPED: no reason' "$(<"$scratch/told")"
+said 1 '^    area/one$' "$(<"$scratch/told")"
 tests 'echo; echo "  2  [#one]"; exit 1' 'echo "SKIPPED: a part"; echo "test cases: 2 | 1 passed | 1 failed"; exit 1'
 list
 fails "a test that fails and skips a part" ctest --test-dir "$scratch"

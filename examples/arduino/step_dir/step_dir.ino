@@ -26,9 +26,9 @@ constexpr MachineSettings machine = [] {
 }();
 // At compile time: what cannot be is an error of the compiler, and no arithmetic in double is left for the chip.
 constexpr auto limits = MotionLimits<Fixed>::make(machine);
-static_assert(limits.has_value());
+static_assert(no_error<limits.error()>());
 constexpr auto timing = StepTiming::make({});
-static_assert(timing.has_value());
+static_assert(no_error<timing.error()>());
 
 constexpr std::int32_t points_um[][axes] = {{0, 0, 0}, {10000, 5000, 0}, {20000, 0, 1000}, {30000, 8000, 1000}, {20000, 10000, -5000}};
 constexpr int point_count = sizeof points_um / sizeof points_um[0];

@@ -4,6 +4,8 @@
 // check away; every function that asserts also documents what it returns in that case.
 #pragma once
 
+#include "splinefeed/base/language.hpp"
+
 #ifndef SPLINEFEED_ASSERT
 #ifdef NDEBUG
 /// Evaluates nothing. sizeof keeps the operands "used": a variable that is only used in a check causes no warning.

@@ -107,6 +107,14 @@ private:
     E error_ = E::none;
 };
 
+/// For numbers that are known to the compiler: static_assert(no_error<limits.error()>()). If there is an error, the
+/// compiler's message names it.
+template <auto error>
+[[nodiscard]] consteval bool no_error() noexcept {
+    static_assert(error == decltype(error)::none, "the error is the one that this message has behind no_error");
+    return true;
+}
+
 /// The answer of a stage when it is asked for its next item.
 enum class Pull : std::uint8_t {
     item,     ///< one item was written

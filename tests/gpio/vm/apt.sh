@@ -38,6 +38,36 @@ depends() {
     { field "$1" Pre-Depends && field "$1" Depends; } | tr ',|' '\n' | sed 's/^ *//; s/[ (].*//' | grep "^$2" | sort -u || true
 }
 
+# kernels: of each kernel whose image, headers and source apt knows in one version, the release, that version, and linux-kbuild=VERSION,
+# which is of the same version or, as the headers allow, of a later one. Newest first.
+kernels() {
+    local names
+    mapfile -t names < <(apt-cache "${apt_options[@]}" pkgnames linux- | grep -E '^linux-((image|headers)-[0-9.]+-[0-9]+-(amd64|common)|(kbuild|source)-[0-9.]+)$')
+    if ((${#names[@]} == 0)); then return 0; fi
+    apt-cache "${apt_options[@]}" madison "${names[@]}" | complete_kernels
+}
+
+# complete_kernels: these lines from those of `apt-cache madison`.
+complete_kernels() {
+    tr -d ' ' | sort --field-separator='|' --key=2,2V | awk -F '|' '
+        { has[$1, $2] = 1 }
+        $1 ~ /^linux-kbuild-/ { newest[$1] = $2; rank[$1] = NR }
+        $1 ~ /^linux-image-/ { image[++images] = $1; version[images] = $2; at[images] = NR }
+        END {
+            for (i = images; i > 0; --i) {
+                release = substr(image[i], length("linux-image-") + 1)
+                split(version[i], part, ".")
+                headers = "linux-headers-" release
+                common = substr(headers, 1, length(headers) - length("amd64")) "common"
+                kbuild = "linux-kbuild-" part[1] "." part[2]
+                tools = has[kbuild, version[i]] ? version[i] : rank[kbuild] > at[i] ? newest[kbuild] : ""
+                if (tools != "" && has[headers, version[i]] && has[common, version[i]] && has["linux-source-" part[1] "." part[2], version[i]]) {
+                    if (!told[image[i], version[i]]++) { print release, version[i], kbuild "=" tools }
+                }
+            }
+        }'
+}
+
 # fetch FOLDER PACKAGE[=VERSION]...: their .deb files into FOLDER.
 fetch() {
     local folder=$1

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs on a real GPIO chip in the virtual machine, and all that can go wrong: runs.sh BUILD_DIRECTORY. With the build's libgpiod;
-# with SPLINEFEED_LONG=1 in a second machine with libgpiod 2, too.
+# Runs on a real GPIO chip in the virtual machine, a served machine, and all that can go wrong: runs.sh BUILD_DIRECTORY. With the build's
+# libgpiod; with SPLINEFEED_LONG=1 in a second machine with libgpiod 2, too.
 source "$(dirname "${BASH_SOURCE[0]}")/../../tools/common.sh"
 
 build=$1
@@ -65,6 +65,8 @@ files=("$work"/{machine,short,lines,outputs,spindle}.toml "$work"/*.{csv,ngc})
 export GPIO_VM_TIME=virtual GPIO_VM_SECONDS=600 # time of the machine; a limit in time of a busy host
 $vm/run.sh $cache "$work/first" $vm/runs_guest.sh "${programs[0]}" "${files[@]}" "$work/all" &
 first=$!
+$vm/run.sh $cache "$work/served" $vm/serve_guest.sh "${programs[0]}" "$work"/{outputs,lines}.toml
+python3 $vm/serve_judge.py "$work/served"
 if ((${#programs[@]} > 1)); then
     $vm/run.sh $cache "$work/second/out" $vm/runs_guest.sh "${programs[1]}" "${files[@]}"
     ldd "${programs[1]}" | grep libgpiod
