@@ -80,7 +80,7 @@ repository_test(help_pages tool/help_pages.py ${PROJECT_BINARY_DIR}/bin/splinefe
 repository_test(schemas schemas/schemas.py ${PROJECT_BINARY_DIR}/bin/splinefeed ${PROJECT_BINARY_DIR}/schemas)
 repository_test(advice tool/advice.py ${PROJECT_BINARY_DIR}/bin/splinefeed)
 if(SPLINEFEED_HAS_PYTHON)
-    foreach(script module_test options_test stream_test arrays_test pickle_test equal_bits pages)
+    foreach(script module_test options_test stream_test arrays_test pickle_test equal_bits hints pages)
         repository_test(python_${script} python/run.sh ${Python_EXECUTABLE} ${PROJECT_BINARY_DIR} ${script}.py)
     endforeach()
     repository_test(python_install LONG "half a minute" python/install.sh ${Python_EXECUTABLE} ${PROJECT_BINARY_DIR})
