@@ -36,8 +36,11 @@ class Variation(NamedTuple):
     def parse(cls, text: str) -> Variation:
         """KEY=LOW:HIGH:COUNT."""
         key, _, span = text.partition("=")
-        low, high, count = span.split(":")
-        return cls(key, [float(value) for value in np.linspace(float(low), float(high), int(count))])
+        try:
+            low, high, count = span.split(":")
+            return cls(key, [float(value) for value in np.linspace(float(low), float(high), int(count))])
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"'{text}' must be KEY=LOW:HIGH:COUNT") from None
 
 
 def machines_of(file: str, variations: list[Variation]) -> Iterator[tuple[Row, splinefeed.Machine]]:
@@ -68,11 +71,11 @@ def text_of(program: str) -> str:
     return program
 
 
-def rows_of(client: Client, machines: list[tuple[Row, splinefeed.Machine]], programs: list[str], dialect: str | None) -> Iterator[Row]:
+def rows_of(client: Client, machines: list[tuple[Row, splinefeed.Machine]], programs: dict[str, str], dialect: str | None) -> Iterator[Row]:
     """The rows, as they become known. What a worker had when it died is planned by another one."""
     keys: dict[Future, Row] = {}
-    for name in programs:
-        text = client.submit(text_of, pathlib.Path(name).read_text(encoding="utf-8") + "\n")
+    for name, program in programs.items():
+        text = client.submit(text_of, program)
         for values, machine in machines:
             keys[client.submit(planned, text, machine, dialect, pure=False)] = {"program": name, **values}
     for future, row in as_completed(list(keys), with_results=True):
@@ -91,13 +94,14 @@ def main() -> None:
     given = reader.parse_args()
     try:
         machines = list(machines_of(given.machine, given.vary))
-    except splinefeed.Error as error:
+        programs = {name: pathlib.Path(name).read_text(encoding="utf-8") + "\n" for name in given.program}
+    except (splinefeed.Error, OSError, UnicodeError) as error:
         reader.error(str(error))
-    total = len(given.program) * len(machines)
+    total = len(programs) * len(machines)
     with open(given.csv, "w", newline="", encoding="utf-8") if given.csv != "-" else sys.stdout as out, Client(given.scheduler) as client:
         table = csv.DictWriter(out, ["program", *(one.key for one in given.vary), *OF_A_PLAN])
         table.writeheader()
-        for done, row in enumerate(rows_of(client, machines, given.program, given.dialect), 1):
+        for done, row in enumerate(rows_of(client, machines, programs, given.dialect), 1):
             table.writerow(row)
             out.flush()
             print(f"\r{done} of {total}", end="" if done < total else "\n", file=sys.stderr, flush=True)

@@ -102,12 +102,15 @@ class Sweep(Scratch):
         with self.assertRaisesRegex(splinefeed.InputError, "points:1: there is a single waypoint"):
             client.submit(splinefeed.plan, points[:1], JERKY).result()
 
-    def test_a_range_that_no_machine_has_is_refused_at_once(self):
-        done = subprocess.run([sys.executable, SWEEP, MACHINE, PROGRAM, "--vary", "path.max_feed_mm_s=0:100:3", "--csv", self.folder / "t.csv"],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("error: --set path.max_feed_mm_s=0.0: max_feed_mm_s is 0; it must lie between", done.stderr)
-        self.assertFalse((self.folder / "t.csv").exists())
+    def test_what_is_wrong_is_said_before_there_is_a_table(self):
+        for program, vary, sentence in ((PROGRAM, "path.max_feed_mm_s=0:100:3", "--set path.max_feed_mm_s=0.0: max_feed_mm_s is 0; it must lie between"),
+                                        (PROGRAM, "path.max_feed_mm_s=7", "'path.max_feed_mm_s=7' must be KEY=LOW:HIGH:COUNT"),
+                                        ("none.ngc", "path.max_feed_mm_s=50:100:3", "No such file or directory: 'none.ngc'")):
+            done = subprocess.run([sys.executable, SWEEP, MACHINE, program, "--vary", vary, "--csv", self.folder / "t.csv"], capture_output=True,
+                                  text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(sentence, done.stderr)
+            self.assertFalse((self.folder / "t.csv").exists())
 
 
 if __name__ == "__main__":
