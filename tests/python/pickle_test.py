@@ -22,7 +22,7 @@ from splinefeed import Curve, InputError, Machine, Motion, SplinefeedWarning, St
 
 GCODE = "G21 G90 F3000\nG1 X10 (\u00e4\u00f6)\nG1 Y10 F600\nM2\n"
 ROUNDS = 1500
-MEMORY = 4 << 30  # a damaged pickle may ask Python for any amount
+MEMORY = 512 << 20  # more than there is: a damaged pickle may ask Python for any amount
 
 
 def motions():
@@ -164,7 +164,8 @@ class Pickles(Scratch):
 class Damage(unittest.TestCase):
     def setUp(self):
         before = resource.getrlimit(resource.RLIMIT_AS)
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, before[1]))
+        mapped = int(pathlib.Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (mapped + MEMORY, before[1]))
         self.addCleanup(resource.setrlimit, resource.RLIMIT_AS, before)
         seed = int(os.environ.get("SPLINEFEED_SEED") or np.random.SeedSequence().entropy % 2**32)
         print(f"seed {seed}", flush=True)
