@@ -41,6 +41,7 @@ if(SPLINEFEED_HAS_PYTHON)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
         "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-distributed)
     set(CPACK_DEBIAN_PYTHON_DESCRIPTION "motion planning of splinefeed - Python module
 Motions along smooth curves through points and of G-code, with samples of
 all derivatives as numpy arrays. It plans with the bits of the command.")

@@ -23,7 +23,7 @@ for acceleration in (500, 1000, 2000, 4000):
                                      max_jerk_mm_s3=50 * acceleration)
         motion = splinefeed.plan(part, machine)
         times[acceleration, feed] = motion.time
-        shares = collections.Counter()
+        shares: collections.Counter[str] = collections.Counter()
         for limit, ticks in zip(motion.binding, motion.segments["duration_ticks"].tolist()):
             shares[limit.split(" of ")[0]] += ticks
         bound.append(shares.most_common(1)[0][0])

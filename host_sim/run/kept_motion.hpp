@@ -6,6 +6,7 @@
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,7 @@ public:
         std::uint32_t waypoint;
         std::uint32_t row;  ///< from 1: the line of a program in G-code, else the waypoint or element; 0: unknown
         std::uint8_t limit; ///< BindingLimit::code()
+        std::array<std::uint8_t, 3> zero{}; ///< no padding: motions with equal segments have equal bytes
     };
 
     explicit KeptMotion(int axes) noexcept

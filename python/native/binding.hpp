@@ -7,6 +7,8 @@
 #include "host_sim/program/waypoint_table.hpp"
 #include "host_sim/run/runner.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <pybind11/numpy.h>
@@ -58,7 +60,9 @@ enum class OptionsOf : unsigned { curve = 1, stream = 2, points = 4, program = 8
 /// Throws UsageError for a value, and TypeError for a name that is none of them, or of something else.
 [[nodiscard]] host::RunArguments read_options(const py::dict& options, OptionsOf of);
 
-using Column = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// Numbers that splinefeed/_arrays.py has checked.
+using Column = py::array_t<double, py::array::c_style>;
+using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
 
 /// Arrays as a table; columns that are None are not there. Throws ValueError where a column has another length.
 [[nodiscard]] host::WaypointTable make_table(const Column& points, const std::optional<Column>& feed_mm_s,
@@ -66,7 +70,11 @@ using Column = py::array_t<double, py::array::c_style | py::array::forcecast>;
                                              const std::optional<Column>& tolerance_mm,
                                              const std::optional<Column>& corner);
 
-/// Segments as rows of bytes, which _motion.segment_dtype describes.
-[[nodiscard]] py::array segment_bytes(const host::KeptMotion& motion);
+/// Bytes of a segment, as _motion.segment_dtype describes them.
+[[nodiscard]] constexpr std::size_t segment_record(std::size_t axes) noexcept {
+    return offsetof(FeedSegment, start) + 4 * axes * sizeof(std::int64_t);
+}
+/// The first segments as rows of bytes. @pre count <= motion.size()
+[[nodiscard]] py::array segment_bytes(const host::KeptMotion& motion, std::size_t count);
 
 } // namespace splinefeed::python

@@ -3,11 +3,14 @@
 #include "python/native/binding.hpp"
 
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/base/toml_text.hpp"
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/config/toml_setting.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
+
+#include <sstream>
 
 namespace splinefeed::python {
 
@@ -59,6 +62,11 @@ void bind_machine(py::module_& module) {
         static_cast<void>(host::parse_machine(text, path, settings)); // what is wrong has its line, or its setting
         const std::string changed = settings.empty() ? text : host::with_settings(text, path, settings);
         return py::make_tuple(share(host::parse_machine(changed, path)), changed);
+    });
+    module.def("machine_json", [](const std::string& text) {
+        std::ostringstream out;
+        out << toml::json_formatter(host::parse_toml(text, "machine"));
+        return out.str();
     });
     py::list path_keys;
     for (const auto& number : path_numbers) {

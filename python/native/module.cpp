@@ -50,12 +50,12 @@ void obey_signals() {
     }
 }
 
-py::array segment_bytes(const host::KeptMotion& motion) {
-    const std::size_t of_axes = static_cast<std::size_t>(motion.axes()) * sizeof(std::int64_t);
-    const std::size_t record = offsetof(FeedSegment, start) + 4 * of_axes;
-    py::array_t<std::uint8_t> out({motion.size(), record});
+py::array segment_bytes(const host::KeptMotion& motion, std::size_t count) {
+    const auto axes = static_cast<std::size_t>(motion.axes());
+    const std::size_t of_axes = axes * sizeof(std::int64_t);
+    py::array_t<std::uint8_t> out({count, segment_record(axes)});
     std::uint8_t* at = out.mutable_data();
-    for (std::size_t i = 0; i < motion.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const FeedSegment segment = motion.segment(i);
         std::memcpy(at, &segment, offsetof(FeedSegment, start));
         at += offsetof(FeedSegment, start);

@@ -10,71 +10,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <fmt/format.h>
 #include <utility>
 
 namespace splinefeed::python {
 
 namespace {
 
-class Motion {
+/// What a motion is planned of. A file is read each time.
+class Input {
 public:
-    /// Plans. @param text  that the arguments read; null: they read a file or an array
-    Motion(Machine machine, host::RunArguments arguments, std::shared_ptr<const host::MemoryFile> text)
-        : machine_(std::move(machine)), arguments_(std::move(arguments)), text_(std::move(text)),
-          kept_(machine_->settings.axes) {
+    Input(Machine machine, host::RunArguments arguments, std::optional<std::string> text)
+        : machine_(std::move(machine)), arguments_(std::move(arguments)), text_(std::move(text)) {
         arguments_.described = *machine_;
-        host::RunArguments kept = arguments_;
-        kept.motion.kept = &kept_;
-        kept.result = &result_;
-        static_cast<void>(host::run(kept));
     }
 
-    [[nodiscard]] const host::KeptMotion& kept() const noexcept { return kept_; }
-    [[nodiscard]] const host::RunResult& result() const noexcept { return result_; }
-    [[nodiscard]] std::size_t axes() const noexcept { return static_cast<std::size_t>(machine_->settings.axes); }
-
-    [[nodiscard]] std::vector<double> mm_per_unit() const {
-        std::vector<double> out;
-        for (unsigned k = 0; k < axes(); ++k) {
-            out.push_back(1.0 / (static_cast<double>(units_per_count) * machine_->settings.axis[k].steps_per_mm));
-        }
-        return out;
+    [[nodiscard]] const Machine& machine() const noexcept { return machine_; }
+    [[nodiscard]] host::RunResult plan(host::KeptMotion& kept) const {
+        host::RunArguments arguments = arguments_;
+        arguments.motion.kept = &kept;
+        return run(arguments);
     }
-
-    [[nodiscard]] std::vector<std::string> limit_names() const {
-        const std::vector<std::string> names(machine_->axis_name.begin(),
-                                             machine_->axis_name.begin() + machine_->settings.axes);
-        std::vector<std::string> out;
-        constexpr unsigned codes = (static_cast<unsigned>(host::LimitKind::chord) + 1U) << 3U;
-        for (unsigned code = 0; code < codes; ++code) {
-            const host::BindingLimit limit = host::BindingLimit::of(static_cast<std::uint8_t>(code));
-            out.push_back(limit.axis < names.size() ? host::limit_name(limit, names) : std::string());
-        }
-        return out;
-    }
-
-    /// Plans once more: what a page shows is not kept.
     void report(const std::string& file) const {
-        require_path("the report", file);
-        host::RunArguments again = arguments_;
-        host::RunResult ignored;
-        again.outputs.report = file;
-        again.helps = true;
-        again.result = &ignored;
-        static_cast<void>(host::run(again));
+        host::RunArguments arguments = arguments_;
+        arguments.outputs.report = file;
+        arguments.helps = true;
+        static_cast<void>(run(arguments));
     }
 
 private:
+    host::RunResult run(host::RunArguments& arguments) const {
+        std::optional<host::MemoryFile> file;
+        if (text_) {
+            file.emplace(*text_);
+            arguments.path.input = file->path();
+        }
+        host::RunResult result;
+        arguments.result = &result;
+        static_cast<void>(host::run(arguments));
+        return result;
+    }
+
     Machine machine_;
     host::RunArguments arguments_;
-    std::shared_ptr<const host::MemoryFile> text_;
-    host::KeptMotion kept_;
-    host::RunResult result_;
+    std::optional<std::string> text_; // that is read in the place of a file
 };
 
-std::shared_ptr<Motion> plan_points(const Machine& machine, const Column& points, const std::optional<Column>& feed,
-                                    const std::optional<Column>& max_feed, const std::optional<Column>& tolerance,
-                                    const std::optional<Column>& corner, const py::dict& options) {
+Input input_of_points(const Machine& machine, const Column& points, const std::optional<Column>& feed,
+                      const std::optional<Column>& max_feed, const std::optional<Column>& tolerance,
+                      const std::optional<Column>& corner, const py::dict& options) {
     host::RunArguments arguments = read_options(options, OptionsOf::points);
     arguments.path.name = "points";
     arguments.path.rows.emplace();
@@ -83,27 +69,128 @@ std::shared_ptr<Motion> plan_points(const Machine& machine, const Column& points
             const std::string& name, const std::vector<std::string>& axes) {
             return host::open_table(table, name, axes);
         };
-    return computed([&] { return std::make_shared<Motion>(machine, std::move(arguments), nullptr); });
+    return {machine, std::move(arguments), {}};
 }
 
-std::shared_ptr<Motion> plan_program(const Machine& machine, const std::string& format, const std::string& program,
-                                     bool is_text, const py::dict& options) {
+Input input_of_program(const Machine& machine, const std::string& format, const std::string& program, bool is_text,
+                       const py::dict& options) {
     host::RunArguments arguments = read_options(options, OptionsOf::program);
     arguments.path.format = host::input_format(format);
-    std::shared_ptr<const host::MemoryFile> text;
     if (is_text) {
-        text = std::make_shared<const host::MemoryFile>(program);
         arguments.path.name = "program";
-    } else {
-        require_path("the program", program);
+        return {machine, std::move(arguments), program};
     }
-    arguments.path.input = is_text ? text->path() : program;
-    return computed([&] { return std::make_shared<Motion>(machine, std::move(arguments), std::move(text)); });
+    require_path("the program", program);
+    arguments.path.input = program;
+    return {machine, std::move(arguments), {}};
+}
+
+/// How many numbers BindingLimit::code() can be.
+constexpr unsigned limit_codes = (static_cast<unsigned>(host::LimitKind::chord) + 1U) << 3U;
+
+/// A planned motion: its bits, and what is said of it.
+struct Motion {
+    Machine machine;
+    host::KeptMotion kept;
+    double time = 0.0;   ///< [s]
+    std::string summary; ///< JSON
+    std::string stopped;
+    std::vector<std::string> notes;
+
+    explicit Motion(const Machine& of) : machine(of), kept(of->settings.axes) {}
+
+    [[nodiscard]] std::size_t axes() const noexcept { return static_cast<std::size_t>(machine->settings.axes); }
+
+    [[nodiscard]] std::vector<double> mm_per_unit() const {
+        std::vector<double> out;
+        for (unsigned k = 0; k < axes(); ++k) {
+            out.push_back(1.0 / (static_cast<double>(units_per_count) * machine->settings.axis[k].steps_per_mm));
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::vector<std::string> limit_names() const {
+        const std::vector<std::string> names(machine->axis_name.begin(),
+                                             machine->axis_name.begin() + machine->settings.axes);
+        std::vector<std::string> out;
+        for (unsigned code = 0; code < limit_codes; ++code) {
+            const host::BindingLimit limit = host::BindingLimit::of(static_cast<std::uint8_t>(code));
+            out.push_back(limit.axis < names.size() ? host::limit_name(limit, names) : std::string());
+        }
+        return out;
+    }
+};
+
+std::shared_ptr<Motion> plan(const Input& input) {
+    return computed([&] {
+        auto motion = std::make_shared<Motion>(input.machine());
+        host::RunResult result = input.plan(motion->kept);
+        motion->time = result.summary.cycle_time_s;
+        motion->summary = host::to_json(result.summary);
+        motion->stopped = std::move(result.stopped);
+        motion->notes = std::move(result.notes);
+        return motion;
+    });
+}
+
+/// Adds a segment. Throws ValueError where no plan makes one like it.
+void add_checked(const FeedSegment& segment, const host::KeptMotion::Head& head, host::KeptMotion& out) {
+    bool possible = head.limit < limit_codes && segment.duration_ticks > 0;
+    for (const unsigned k : indices(out.axes())) {
+        std::int64_t distance = 0;
+        possible = possible && !__builtin_sub_overflow(segment.end[k], segment.start[k], &distance);
+    }
+    if (!possible) {
+        throw py::value_error(fmt::format("segment {} is none of a plan", out.size()));
+    }
+    out.add(segment, head.row, host::BindingLimit::of(head.limit));
+}
+
+/// A motion of its bits: Motion.first and Motion.records of another one. Throws ValueError where they are none.
+std::shared_ptr<Motion> restore_motion(const Machine& machine, const Bytes& first, const Bytes& records, double time,
+                                       const std::string& summary, const std::string& stopped,
+                                       const std::vector<std::string>& notes) {
+    auto motion = std::make_shared<Motion>(machine);
+    motion->time = time;
+    motion->summary = summary;
+    motion->stopped = stopped;
+    motion->notes = notes;
+    const std::size_t of_axes = motion->axes() * sizeof(std::int64_t);
+    const auto record = static_cast<py::ssize_t>(motion->kept.record_bytes());
+    const auto size = static_cast<py::ssize_t>(segment_record(motion->axes()));
+    if (records.ndim() != 2 || records.shape(1) != record || first.ndim() != 2 || first.shape(1) != size ||
+        first.shape(0) != std::min<py::ssize_t>(records.shape(0), 1)) {
+        throw py::value_error(fmt::format("its segments are none of {} axes", motion->axes()));
+    }
+    if (!std::isfinite(time) || time < 0.0) {
+        throw py::value_error("its time is none");
+    }
+    FeedSegment segment;
+    if (first.size() > 0) {
+        std::memcpy(&segment.index, first.data(), sizeof segment.index);
+        std::memcpy(&segment.duration_ticks, first.data() + offsetof(FeedSegment, duration_ticks),
+                    sizeof segment.duration_ticks);
+        std::memcpy(segment.start.data(), first.data() + offsetof(FeedSegment, start), of_axes);
+        std::memcpy(segment.start_velocity.data(), first.data() + offsetof(FeedSegment, start) + 2 * of_axes, of_axes);
+    }
+    const std::uint8_t* at = records.data();
+    for (py::ssize_t i = 0; i < records.shape(0); ++i, at += record) {
+        host::KeptMotion::Head head{};
+        std::memcpy(&head, at, sizeof head);
+        std::memcpy(segment.end.data(), at + sizeof head, of_axes);
+        std::memcpy(segment.end_velocity.data(), at + sizeof head + of_axes, of_axes);
+        segment.waypoint = head.waypoint;
+        add_checked(segment, head, motion->kept);
+        segment.start = segment.end;
+        segment.start_velocity = segment.end_velocity;
+        ++segment.index;
+    }
+    return motion;
 }
 
 py::tuple sample(const Motion& motion, const Column& times) {
     const std::span<const double> all(times.data(), static_cast<std::size_t>(times.size()));
-    if (motion.kept().size() == 0) {
+    if (motion.kept.size() == 0) {
         throw py::value_error("the motion has no segment");
     }
     if (!std::all_of(all.begin(), all.end(), [](double t) { return t >= 0.0 && std::isfinite(t); })) {
@@ -120,7 +207,7 @@ py::tuple sample(const Motion& motion, const Column& times) {
                          jerk.mutable_data()};
     {
         const py::gil_scoped_release others_run;
-        sample_motion(motion.kept(), motion.mm_per_unit(), all, out);
+        sample_motion(motion.kept, motion.mm_per_unit(), all, out);
     }
     return py::make_tuple(position, velocity, acceleration, jerk);
 }
@@ -128,25 +215,35 @@ py::tuple sample(const Motion& motion, const Column& times) {
 } // namespace
 
 void bind_motion(py::module_& module) {
-    const auto heads = [](const py::object& self) {
-        const host::KeptMotion& kept = py::cast<const Motion&>(self).kept();
-        return py::array_t<std::uint8_t>({kept.size(), sizeof(host::KeptMotion::Head)},
-                                         {kept.record_bytes(), std::size_t{1}},
+    const auto records = [](const py::object& self) {
+        const host::KeptMotion& kept = py::cast<const Motion&>(self).kept;
+        return py::array_t<std::uint8_t>({kept.size(), kept.record_bytes()},
                                          reinterpret_cast<const std::uint8_t*>(kept.data()), self);
     };
+    py::class_<Input>(module, "Input")
+        .def(py::init(&input_of_points))
+        .def(py::init(&input_of_program))
+        .def("plan", plan)
+        .def("report", [](const Input& input, const std::string& file) {
+            require_path("the report", file);
+            computed([&] { input.report(file); });
+        });
     py::class_<Motion, std::shared_ptr<Motion>>(module, "Motion")
-        .def_property_readonly("summary", [](const Motion& motion) { return host::to_json(motion.result().summary); })
-        .def_property_readonly("time", [](const Motion& motion) { return motion.result().summary.cycle_time_s; })
-        .def_property_readonly("stopped", [](const Motion& motion) { return motion.result().stopped; })
-        .def_property_readonly("notes", [](const Motion& motion) { return motion.result().notes; })
-        .def_property_readonly("segment_ticks", [](const Motion& motion) { return motion.kept().segment_ticks(); })
-        .def_property_readonly("segments", [](const Motion& motion) { return segment_bytes(motion.kept()); })
-        .def_property_readonly("heads", heads)
+        .def_readonly("summary", &Motion::summary)
+        .def_readonly("time", &Motion::time)
+        .def_readonly("stopped", &Motion::stopped)
+        .def_readonly("notes", &Motion::notes)
+        .def_property_readonly("segment_ticks", [](const Motion& motion) { return motion.kept.segment_ticks(); })
+        .def_property_readonly("segments",
+                               [](const Motion& motion) { return segment_bytes(motion.kept, motion.kept.size()); })
+        .def_property_readonly("first",
+                               [](const Motion& motion) {
+                                   return segment_bytes(motion.kept, std::min<std::size_t>(motion.kept.size(), 1));
+                               })
+        .def_property_readonly("records", records)
         .def_property_readonly("limit_names", &Motion::limit_names)
-        .def("sample", sample)
-        .def("report", [](const Motion& motion, const std::string& file) { computed([&] { motion.report(file); }); });
-    module.def("plan_points", plan_points);
-    module.def("plan_program", plan_program);
+        .def("sample", sample);
+    module.def("restore_motion", restore_motion);
 }
 
 } // namespace splinefeed::python

@@ -137,7 +137,7 @@ template <class Call>
 py::array kept(const Stream& stream, Call&& call) {
     host::KeptMotion all(stream.axes());
     computed([&] { call(all); });
-    return segment_bytes(all);
+    return segment_bytes(all, all.size());
 }
 
 void push(Stream& stream, const Column& points, const std::optional<Column>& feed,

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
+from ._arrays import Numbers, numbers_of
 from ._errors import warn_caller
-from ._options import is_file, json_of, options_of, points_of
+from ._options import bytes_of, is_file, json_of, Option, options_of
+from ._state import Arrays, Facts, Picklable
 
 #: Nodes and weights of Gauss-Legendre for the arc length: exact to 1e-12 of a span that is smooth.
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # type: ignore[no-untyped-call]
 
 
 def curve_names() -> list[str]:
@@ -21,7 +24,7 @@ def curve_names() -> list[str]:
     return list(_native.curve_names)
 
 
-class Curve:
+class Curve(Picklable):
     """A curve as Bezier segments. Its parameter u is 0 to len(curve): the whole part is the segment, the rest its own parameter.
 
     Args:
@@ -32,29 +35,38 @@ class Curve:
         options: as in plan().
     """
 
-    def __init__(self, points: Any, curve: str = "g2", *, closed: bool = False, smooth: bool = False, scalar: str = "fixed",
-                 **options: Any) -> None:
+    _kind = "curve"
+
+    def __init__(self, points: npt.ArrayLike, curve: str = "g2", *, closed: bool = False, smooth: bool = False, scalar: str = "fixed",
+                 **options: Option) -> None:
         given = options_of(curve=curve, closed=closed, smooth=smooth, scalar=scalar, **options)
-        self._take(*_native.curve_of_points(points_of(points), given))
+        self._take(*_native.curve_of_points(numbers_of(points, "points", "(n, axes)"), given))
 
     @classmethod
-    def from_json(cls, curve: Any, *, smooth: bool = False, scalar: str = "fixed") -> Curve:
+    def from_json(cls, curve: str | os.PathLike[str] | Mapping[str, object], *, smooth: bool = False, scalar: str = "fixed") -> Curve:
         """A curve file: its segments, or the description of a curve. A path, or its document as a dict."""
         out = cls.__new__(cls)
-        if isinstance(curve, dict):
-            curve = json_of(curve)
-        text = not is_file(curve)
-        out._take(*_native.curve_of_description(curve if text else os.fspath(curve), text,
-                                                options_of(smooth=smooth, scalar=scalar)))
+        given = json_of(dict(curve)) if isinstance(curve, Mapping) else curve
+        is_text = not is_file(given)
+        out._take(*_native.curve_of_description(bytes_of(given), is_text, options_of(smooth=smooth, scalar=scalar)))
         return out
 
-    def _take(self, points: np.ndarray, degrees: np.ndarray, notes: list[str]) -> None:
+    def _take(self, points: Numbers, degrees: npt.NDArray[np.int64], notes: list[str]) -> None:
         ends = np.cumsum(degrees + 1)
         self._bezier = [points[end - degree - 1:end] for end, degree in zip(ends, degrees)]
         warn_caller(notes)
 
+    def _state(self) -> tuple[Facts, Arrays]:
+        return {"degrees": [len(one) - 1 for one in self._bezier]}, {"points": np.concatenate(self._bezier)}
+
+    def _restore(self, facts: Facts, arrays: Arrays) -> None:
+        points, degrees = arrays["points"].astype(np.float64), np.array(facts["degrees"], dtype=np.int64)
+        if points.ndim != 2 or degrees.ndim != 1 or not len(degrees) or degrees.min() < 0 or np.sum(degrees + 1) != len(points):
+            raise ValueError("its degrees are not those of its points")
+        self._take(points, degrees, [])
+
     @property
-    def bezier(self) -> list[np.ndarray]:
+    def bezier(self) -> list[Numbers]:
         """The control points of each segment, (degree + 1, axes) [mm]."""
         return self._bezier
 
@@ -66,18 +78,18 @@ class Curve:
     def __len__(self) -> int:
         return len(self._bezier)
 
-    def evaluate(self, u: Any) -> np.ndarray:
+    def evaluate(self, u: npt.ArrayLike) -> Numbers:
         """Points at the parameters u: the shape of u with (axes,) behind it [mm]."""
         return self.derivative(u, 0)
 
-    def derivative(self, u: Any, order: int = 1) -> np.ndarray:
+    def derivative(self, u: npt.ArrayLike, order: int = 1) -> Numbers:
         """Derivatives by u: the shape of u with (axes,) behind it. At a joint they are those of the segment behind it."""
         if order < 0:
             raise ValueError(f"the order must not be below 0, and is {order}")
-        u = np.asarray(u, dtype=np.float64)
-        if not np.all((u >= 0.0) & (u <= len(self))):
+        places = numbers_of(u, "u")
+        if not np.all((places >= 0.0) & (places <= len(self))):
             raise ValueError(f"u must lie within 0 and {len(self)}")
-        flat = u.ravel()
+        flat = places.ravel()
         segment = np.minimum(flat.astype(np.int64), len(self) - 1)
         out = np.zeros((len(flat), self.axes))
         for degree, (numbers, control) in self._by_degree.items():
@@ -85,10 +97,10 @@ class Curve:
             mine = np.flatnonzero((place < len(numbers)) & (numbers[np.minimum(place, len(numbers) - 1)] == segment))
             if order <= degree:
                 out[mine] = _value(control[place[mine]], flat[mine] - segment[mine], order)
-        return out.reshape(*u.shape, self.axes)
+        return out.reshape(*places.shape, self.axes)
 
     @functools.cached_property
-    def _by_degree(self) -> dict[int, tuple[np.ndarray, np.ndarray]]:
+    def _by_degree(self) -> dict[int, tuple[npt.NDArray[np.intp], Numbers]]:
         """For each degree the numbers of its segments, and their control points (n, degree + 1, axes)."""
         degrees = np.array([len(one) - 1 for one in self._bezier])
         return {int(degree): (np.flatnonzero(degrees == degree), np.array([self._bezier[i] for i in np.flatnonzero(degrees == degree)]))
@@ -111,21 +123,30 @@ class Curve:
             whole = np.concatenate([left[open_], right[open_]])
         return total + float(np.sum(whole))
 
-    def _lengths(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    def _lengths(self, low: Numbers, high: Numbers) -> Numbers:
         """Lengths of spans, each within a segment."""
         half = 0.5 * (high - low)
         speed = np.linalg.norm(self.derivative(0.5 * (low + high)[:, None] + half[:, None] * _NODES), axis=-1)
-        return half * (speed @ _WEIGHTS)
+        out: Numbers = half * (speed @ _WEIGHTS)
+        return out
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Curve):
+            return NotImplemented
+        return len(self) == len(other) and all(np.array_equal(mine, theirs) for mine, theirs in zip(self._bezier, other._bezier))
+
+    def __hash__(self) -> int:
+        return hash((len(self), self.axes))
 
     def __repr__(self) -> str:
         return f"<splinefeed.Curve: {len(self)} segments of {self.axes} axes>"
 
 
-def _value(control: np.ndarray, t: np.ndarray, order: int) -> np.ndarray:
+def _value(control: Numbers, t: Numbers, order: int) -> Numbers:
     """Derivatives of n Bezier segments (n, degree + 1, axes), each at its own t (n,), by de Casteljau."""
     for _ in range(order):
-        control = (control.shape[1] - 1) * np.diff(control, axis=1)
+        control = (control.shape[1] - 1.0) * (control[:, 1:] - control[:, :-1])
     t = t[:, None, None]
     while control.shape[1] > 1:
-        control = control[:, :-1] + t * np.diff(control, axis=1)
+        control = control[:, :-1] + t * (control[:, 1:] - control[:, :-1])
     return control[:, 0]

@@ -2,11 +2,14 @@
 """Pictures of a motion, by matplotlib."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure as FigureType
+
     from ._motion import Motion
 
 _STRIPS = (("position", "mm", None), ("velocity", "mm/s", "max_velocity_mm_s"),
@@ -14,7 +17,7 @@ _STRIPS = (("position", "mm", None), ("velocity", "mm/s", "max_velocity_mm_s"),
 _MOST_SAMPLES = 20_000
 
 
-def figure_of(motion: Motion, period: float | None) -> Any:
+def figure_of(motion: Motion, period: float | None) -> FigureType:
     """A figure: the path of the first two axes at the left, all axes over time at the right."""
     from matplotlib.collections import LineCollection  # pylint: disable=import-outside-toplevel
     from matplotlib.figure import Figure  # pylint: disable=import-outside-toplevel
@@ -30,12 +33,12 @@ def figure_of(motion: Motion, period: float | None) -> Any:
     path.set(xlabel=f"{motion.machine.axes[0]} [mm]", ylabel=f"{motion.machine.axes[min(1, len(motion.machine.axes) - 1)]} [mm]",
              title=f"{motion.time:.4g} s")
     figure.colorbar(line, ax=path, label="speed [mm/s]", location="bottom")
-    limits = motion.machine.limits
+    limits: Mapping[str, object] = motion.machine.limits
     for row, (name, unit, key) in enumerate(_STRIPS):
         strip = figure.add_subplot(grid[row, 1])
         for k, axis in enumerate(motion.machine.axes):
             drawn, = strip.plot(samples.time, getattr(samples, name)[:, k], label=axis, linewidth=1)
-            bound = limits[key][k] if key else np.nan
+            bound = np.asarray(limits[key])[k] if key else np.nan
             if np.isfinite(bound):
                 for side in (-bound, bound):
                     strip.axhline(side, color=drawn.get_color(), linewidth=0.7, linestyle=":")

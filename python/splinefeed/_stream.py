@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import NoReturn
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
+from ._arrays import column_of, numbers_of
 from ._machine import Machine, machine_or_default
-from ._motion import segment_dtype
-from ._options import column_of, options_of
+from ._motion import Column, segment_dtype
+from ._options import Option, options_of
 
 
 class Stream:
@@ -25,7 +27,7 @@ class Stream:
     """
 
     def __init__(self, machine: Machine | None = None, curve: str = "g2", *, scalar: str = "fixed", window: int = 1024,
-                 jerk_scalar: str = "double", **options: Any) -> None:
+                 jerk_scalar: str = "double", **options: Option) -> None:
         self._machine = machine_or_default(machine)
         given = options_of(curve=curve, scalar=scalar, window=window, jerk_scalar=jerk_scalar, **options)
         self._native = _native.Stream(self._machine._native, given)
@@ -37,19 +39,22 @@ class Stream:
         """The machine that it plans for."""
         return self._machine
 
-    def push(self, points: Any, *, feed_mm_s: Any = None, max_feed_mm_s: Any = None, corner: Any = None) -> None:
+    def push(self, points: npt.ArrayLike, *, feed_mm_s: Column = None, max_feed_mm_s: Column = None,
+             corner: Column = None) -> None:
         """Adds a point (axes,) or several (n, axes) [mm]; as in plan(). Raises InputError: the points before the wrong one count."""
-        points = np.atleast_2d(np.ascontiguousarray(points, dtype=np.float64))
-        rows = len(points)
+        given = np.atleast_2d(numbers_of(points, "points"))
+        rows = len(given)
+        columns = (column_of(feed_mm_s, "feed_mm_s", rows), column_of(max_feed_mm_s, "max_feed_mm_s", rows),
+                   column_of(corner, "corner", rows, flags=True))
         with self._lock:
-            self._native.push(points, column_of(feed_mm_s, rows), column_of(max_feed_mm_s, rows), column_of(corner, rows))
+            self._native.push(given, *columns)
 
     def finish(self) -> None:
         """No more points come."""
         with self._lock:
             self._native.finish()
 
-    def next(self, most: int = 1024, *, drain: bool = False) -> np.ndarray:
+    def next(self, most: int = 1024, *, drain: bool = False) -> npt.NDArray[np.void]:
         """The next segments, at most so many, as Motion.segments has them. Fewer: `state` says why.
 
         Args:
@@ -61,7 +66,7 @@ class Stream:
         with self._lock:
             return self._native.next(most, drain).view(self._dtype)[:, 0]
 
-    def stand(self) -> np.ndarray:
+    def stand(self) -> npt.NDArray[np.void]:
         """One segment of standstill, while the motion is held and stands; else none."""
         with self._lock:
             return self._native.stand().view(self._dtype)[:, 0]
@@ -88,3 +93,9 @@ class Stream:
         if not 0.0 <= ratio <= 2.0:
             raise ValueError(f"an override must lie between 0 and 2, and is {ratio}")
         self._native.override(ratio)
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Stream is in the middle of its work and cannot be pickled or copied; pickle its machine and its points")
+
+    def __repr__(self) -> str:
+        return f"<splinefeed.Stream: {self.state}, of {', '.join(self._machine.axes)}>"

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The Python module installed by CMake and by pip, without a network, and used from elsewhere: install.sh PYTHON BUILD_DIRECTORY.
+# The Python module installed by CMake, by pip and of a source distribution, without a network, and used from elsewhere:
+# install.sh PYTHON BUILD_DIRECTORY.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 python=$1 build=$(cd "$2" && pwd)
-for module in pip setuptools venv wheel; do
-    "$python" -c "import $module" 2>/dev/null || skip "$python has no $module (Debian: apt-get install python3-pip python3-setuptools python3-venv python3-wheel)"
+for module in build pip setuptools venv wheel; do
+    "$python" -c "import $module" 2>/dev/null || skip "$python has no $module (Debian: apt-get install python3-build python3-pip python3-setuptools python3-venv python3-wheel)"
 done
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -15,7 +16,8 @@ use_from() {
     (cd "$scratch" && "$1" -W error -c "
 import pathlib, splinefeed
 assert pathlib.Path(splinefeed.__file__).is_relative_to('$scratch'), splinefeed.__file__
-assert (pathlib.Path(splinefeed.__file__).parent / 'py.typed').exists()
+for name in ('py.typed', '_native.pyi'):
+    assert (pathlib.Path(splinefeed.__file__).parent / name).exists(), name
 print(splinefeed.__version__, splinefeed.plan([[0, 0], [10, 5], [20, 0], [30, 5], [40, 0]]).time)")
 }
 
@@ -23,12 +25,23 @@ cmake --install "$build" --component python --prefix "$scratch/prefix" >/dev/nul
 by_cmake=$(PYTHONPATH=$(echo "$scratch"/prefix/lib/python3*/*-packages) use_from "$python")
 
 # In the repository, where a compiler cache finds what was compiled; without a network where the kernel lets us be without.
-trap 'rm -rf "$scratch" python/build python/*.egg-info' EXIT
+trap 'rm -rf "$scratch" python/*.egg-info' EXIT
+export CMAKE_ARGS=-DSPLINEFEED_WERROR=ON # as everything here is compiled
 offline=()
 if unshare --net true 2>/dev/null; then offline=(unshare --net); fi
-"$python" -m venv --system-site-packages "$scratch/venv"
-"${offline[@]}" "$scratch/venv/bin/pip" install --quiet --no-build-isolation --no-deps --disable-pip-version-check ./python
-by_pip=$(use_from "$scratch/venv/bin/python")
+# install_from WHAT NAME: what pip makes of it says what it is.
+install_from() {
+    "$python" -m venv --system-site-packages "$scratch/$2"
+    "${offline[@]}" "$scratch/$2/bin/pip" install --quiet --no-build-isolation --no-deps --disable-pip-version-check "$1"
+    use_from "$scratch/$2/bin/python"
+}
+by_pip=$(install_from . by_pip)
 
-echo "by CMake: $by_cmake; by pip: $by_pip"
-[[ $by_cmake == "$by_pip" && $by_pip == *" 0.602" ]]
+# The source distribution has all that it needs: it is compiled in a folder of its own, which is no git repository.
+"${offline[@]}" "$python" -m build --sdist --no-isolation --outdir "$scratch/dist" . >"$scratch/sdist.log" 2>&1 || { cat "$scratch/sdist.log"; exit 1; }
+mkdir "$scratch/elsewhere"
+tar --extract --file "$scratch"/dist/splinefeed-*.tar.gz --directory "$scratch/elsewhere"
+by_sdist=$(install_from "$(echo "$scratch"/elsewhere/splinefeed-*)" by_sdist)
+
+echo "by CMake: $by_cmake; by pip: $by_pip; of the source distribution of $(du -k "$scratch"/dist/*.tar.gz | cut -f 1) kB: $by_sdist"
+[[ $by_cmake == "$by_pip" && $by_cmake == "$by_sdist" && $by_pip == *" 0.602" ]]
