@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sections of a profile that say what a drive does: states, commands, motion, watchdog, init, identity.
+// The sections of a profile that say what a drive does: states, commands, motion, watchdog, init, identity, stays_on.
 #include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 
@@ -193,14 +193,17 @@ void read_init(const TomlChecker& check, const toml::table& root, DriveProfile& 
     }
 }
 
-void read_identity(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
-    for (const toml::table* table : check.tables(root, "identity")) {
-        check.require_known(*table, identity_table);
-        profile.identity.push_back(
-            {read_test(check, *table, profile, "[[identity]]"),
-             check.text(check.required(*table, "sentence", "[[identity]]", "what to tell where it does not hold"),
-                        "sentence")});
-    }
+void read_checks(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
+    const auto read = [&](std::string_view key, const FileTable& keys, std::string_view when,
+                          std::vector<DriveProfile::SetupCheck>& checks) {
+        for (const toml::table* table : check.tables(root, key)) {
+            check.require_known(*table, keys);
+            checks.push_back({read_test(check, *table, profile, keys.where),
+                              check.text(check.required(*table, "sentence", keys.where, when), "sentence")});
+        }
+    };
+    read("identity", identity_table, "what to tell where it does not hold", profile.identity);
+    read("stays_on", stays_on_table, "what keeps the motor on, and what to set", profile.stays_on);
 }
 
 } // namespace splinefeed::host

@@ -122,7 +122,7 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
     read_motion(check, root, profile);
     read_watchdog(check, root, profile);
     read_init(check, root, profile);
-    read_identity(check, root, profile);
+    read_checks(check, root, profile);
     require_complete(check, profile);
     return profile;
 }

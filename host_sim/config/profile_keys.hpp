@@ -198,6 +198,14 @@ inline constexpr FileKey profile_keys[] = {
     whole_key("axes", 1, 6, "Most axes in one drive; beyond 1 with pvt alone."),
     choice_key("states", state_machine_names, "cia402: status word of CiA 402; masks (default): the [[state]] tables."),
     needed(table_key("link", link_table, "How the drive is reached.")),
+inline constexpr FileKey stays_on_keys[] = {
+    field_name_key,
+    mask_key,
+    needed(whole_key("value", 0, highest_mask, "What the bits of the mask are then.")),
+    needed(text_key("sentence", "What keeps the motor on, and what to set in the drive.")),
+};
+inline constexpr FileTable stays_on_table{"[[stays_on]]", stays_on_keys, {}};
+
     needed({.key = "field",
             .kind = KeyKind::tables,
             .sentence = "Numbers that are read or written.",
@@ -220,3 +228,5 @@ inline constexpr FileTable profile_table{"the profile", profile_keys,
                   "required": ["motion"]}}]})"};
 
 } // namespace splinefeed::host
+    table_key("stays_on", stays_on_table, "Where it holds, disable does not take the motor's power off: refused.",
+              KeyKind::tables),

@@ -72,6 +72,8 @@ TEST_CASE("A drive profile is read") {
     CHECK(profile.watchdog_reaction == WatchdogReaction::quick_stop);
     CHECK(profile.init.front().value == 200);
     CHECK(profile.identity.front().sentence == "this is another drive");
+    CHECK(profile.stays_on.front().sentence == "an input keeps it on");
+    CHECK(profile.stays_on.front().test.mask == 0x4000);
 }
 
 TEST_CASE("What a profile may leave out") {

@@ -47,6 +47,9 @@ TEST_CASE("The shipped profiles have what their makers' documents say") {
     CHECK(leadshine.group_for(GroupUse::target)->address == 0x6200);
     CHECK(leadshine.group_for(GroupUse::target)->registers == 8);
     CHECK(leadshine.field_of(FieldRole::actual_position)->address == 0x602C);
+    REQUIRE(leadshine.stays_on.size() == 1); // SI1 is enable, normally closed
+    CHECK(leadshine.fields[leadshine.stays_on.front().test.field].address == 0x0145);
+    CHECK(leadshine.stays_on.front().test.value == 0x0088);
     REQUIRE(leadshine.link.exchanges.size() == 4);
     CHECK(leadshine.link.exchanges[3].duration_us == 3080);
 

@@ -212,11 +212,12 @@ struct DriveProfile {
     };
     std::vector<InitialValue> init; ///< written once, in order; a flash field only if its value differs
 
-    struct IdentityCheck {
+    struct SetupCheck {
         FieldTest test;
         std::string sentence; ///< message if the test fails
     };
-    std::vector<IdentityCheck> identity;
+    std::vector<SetupCheck> identity; ///< must hold, before anything is written
+    std::vector<SetupCheck> stays_on; ///< must not hold: the motor has power then, whatever `disable` writes
 
     /// Index of the field of a role, or no_field. Cost: linear.
     [[nodiscard]] FieldIndex index_of(FieldRole role) const noexcept {
