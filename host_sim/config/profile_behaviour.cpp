@@ -3,6 +3,7 @@
 #include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -13,7 +14,7 @@ namespace {
 
 // Masks are of the low 32 bits at most.
 WholeRange mask_range(const RegisterField& field) {
-    return {0, field.width_bits == 16 ? 0xFFFF : 0xFFFFFFFF};
+    return {0, (std::int64_t{1} << std::min<unsigned>(field.width_bits, 32)) - 1};
 }
 
 /// A key that is of a field with this role.

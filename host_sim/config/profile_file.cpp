@@ -55,7 +55,7 @@ void require_speed(const TomlChecker& check, const DriveProfile& profile) {
 // What the way of streaming cannot do without.
 void require_complete(const TomlChecker& check, const DriveProfile& profile) {
     if (profile.stream == StreamWay::pvt) {
-        if (!profile.link.function_write) {
+        if (!profile.link.has(16)) {
             check.fail_file("stream = \"pvt\" needs function 16 in `functions` of [link]: segments are written by it");
         }
         return;

@@ -24,10 +24,10 @@ TEST_CASE("A drive profile is read") {
     CHECK(profile.link.turnaround_us == 2000);
     CHECK(profile.link.response_timeout_us == 80000);
     CHECK(profile.link.retries == 5);
-    CHECK(profile.link.function_read);
-    CHECK_FALSE(profile.link.function_write_one);
-    CHECK(profile.link.function_write);
-    CHECK_FALSE(profile.link.function_exchange);
+    CHECK(profile.link.has(3));
+    CHECK_FALSE(profile.link.has(6));
+    CHECK(profile.link.has(16));
+    CHECK_FALSE(profile.link.has(23));
     CHECK(profile.link.most_read_registers == 20);
     CHECK(profile.link.most_write_registers == 10);
     CHECK(profile.link.reads_zero_until_written);

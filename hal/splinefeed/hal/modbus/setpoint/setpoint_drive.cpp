@@ -24,8 +24,8 @@ bool SetpointDrive::record(const LinkAnswer& answer) noexcept {
 }
 
 bool SetpointDrive::write(const RegisterWrite& write) noexcept {
-    return record(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
-                                                : link_->write_one(unit_, write.address, write.values[0]));
+    return record(profile_->link.has(16) ? link_->write(unit_, write.address, write.registers())
+                                         : link_->write_one(unit_, write.address, write.values[0]));
 }
 
 bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
@@ -92,7 +92,7 @@ std::string SetpointDrive::check_setup(const std::vector<DriveProfile::SetupChec
         if (!retry([&] { return read(field.address, in); })) {
             return trouble(unread);
         }
-        if (!holds(check.test, take_raw(field, in))) {
+        if (holds(check.test, take_raw(field, in)) != must_hold) {
             return check.sentence;
         }
     }
