@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The sections of a profile that say what a drive does: states, commands, motion, watchdog, init, identity.
+// The sections of a profile that say what a drive does: states, commands, motion, watchdog, init, identity, stays_on.
 #include "host_sim/config/profile_keys.hpp"
 #include "host_sim/config/profile_sections.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -13,7 +14,7 @@ namespace {
 
 // Masks are of the low 32 bits at most.
 WholeRange mask_range(const RegisterField& field) {
-    return {0, field.width_bits == 16 ? 0xFFFF : 0xFFFFFFFF};
+    return {0, (std::int64_t{1} << std::min<unsigned>(field.width_bits, 32)) - 1};
 }
 
 /// A key that is of a field with this role.
@@ -193,14 +194,17 @@ void read_init(const TomlChecker& check, const toml::table& root, DriveProfile& 
     }
 }
 
-void read_identity(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
-    for (const toml::table* table : check.tables(root, "identity")) {
-        check.require_known(*table, identity_table);
-        profile.identity.push_back(
-            {read_test(check, *table, profile, "[[identity]]"),
-             check.text(check.required(*table, "sentence", "[[identity]]", "what to tell where it does not hold"),
-                        "sentence")});
-    }
+void read_checks(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
+    const auto read = [&](std::string_view key, const FileTable& keys, std::string_view when,
+                          std::vector<DriveProfile::SetupCheck>& checks) {
+        for (const toml::table* table : check.tables(root, key)) {
+            check.require_known(*table, keys);
+            checks.push_back({read_test(check, *table, profile, keys.where),
+                              check.text(check.required(*table, "sentence", keys.where, when), "sentence")});
+        }
+    };
+    read("identity", identity_table, "what to tell where it does not hold", profile.identity);
+    read("stays_on", stays_on_table, "what keeps the motor on, and what to set", profile.stays_on);
 }
 
 } // namespace splinefeed::host

@@ -33,19 +33,18 @@ void read_wires(const TomlChecker& check, const toml::table& table, LinkSettings
 }
 
 void read_functions(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
-    constexpr std::string_view known = "a list of 3, 6, 16 and 23";
-    const toml::node& node = check.required(table, "functions", "[link]", known);
-    link.function_read = link.function_write_one = link.function_write = false;
-    for (const toml::node& entry : check.array(node, "functions", known)) {
-        switch (TomlChecker::whole_of(entry).value_or(0)) {
-        case 3: link.function_read = true; break;
-        case 6: link.function_write_one = true; break;
-        case 16: link.function_write = true; break;
-        case 23: link.function_exchange = true; break;
-        default: check.fail(entry, "functions must be 3, 6, 16 and 23, those of them that the drive has");
+    constexpr std::string_view form = "a list of 1 to 6, 16 and 23";
+    constexpr std::array<std::int64_t, 8> known{1, 2, 3, 4, 5, 6, 16, 23};
+    const toml::node& node = check.required(table, "functions", "[link]", form);
+    link.functions = 0;
+    for (const toml::node& entry : check.array(node, "functions", form)) {
+        const std::int64_t function = TomlChecker::whole_of(entry).value_or(0);
+        if (std::ranges::find(known, function) == known.end()) {
+            check.fail(entry, "functions must be 1 to 6, 16 and 23, those of them that the drive has");
         }
+        link.functions |= 1U << static_cast<unsigned>(function);
     }
-    if (!link.function_read || !(link.function_write_one || link.function_write)) {
+    if (!link.has(3) || !(link.has(6) || link.has(16))) {
         check.fail(node, "functions must hold 3, which reads, and 6 or 16, which write");
     }
 }
@@ -148,8 +147,10 @@ void read_name(const TomlChecker& check, const toml::table& table, const DrivePr
 void refuse_overlap(const TomlChecker& check, const toml::table& table, const DriveProfile& profile,
                     const RegisterField& field) {
     for (const RegisterField& other : profile.fields) {
-        const bool apart =
-            field.address + field.registers() <= other.address || other.address + other.registers() <= field.address;
+        const auto behind = [](const RegisterField& one) {
+            return one.place() + static_cast<int>(one.registers());
+        };
+        const bool apart = behind(field) <= other.place() || behind(other) <= field.place();
         const bool both_read = field.readable() && other.readable();
         const bool both_written = field.writable() && other.writable();
         if (!apart && (both_read || both_written)) {
@@ -161,11 +162,37 @@ void refuse_overlap(const TomlChecker& check, const toml::table& table, const Dr
     }
 }
 
+// Inputs are read only, and a bit is neither a number nor in an order.
+void read_table(const TomlChecker& check, const toml::table& table, const DriveProfile& profile, RegisterField& field) {
+    constexpr std::array<std::string_view, 9> of_numbers{"width",   "signed", "word_order", "byte_order", "scale",
+                                                         "inverse", "unit",   "clamp",      "flash"};
+    check.take(table, field_table, "table", field.table);
+    if (field.table == RegisterTable::holding) {
+        return;
+    }
+    const std::string_view kind = table_names[static_cast<std::size_t>(field.table)];
+    if (profile.stream != StreamWay::speed) {
+        check.fail(*table.get("table"), "a field of {} is for stream = \"speed\" alone; leave table out", kind);
+    }
+    if (is_bit(field.table)) {
+        field.width_bits = 1;
+        for (const std::string_view key : of_numbers) {
+            if (const toml::node* node = table.get(key)) {
+                check.fail(*node, "a field of {} is one bit; leave {} out", kind, key);
+            }
+        }
+    }
+    if (field.table != RegisterTable::coils) {
+        field.access = FieldAccess::read;
+    }
+}
+
 RegisterField read_field(const TomlChecker& check, const toml::table& table, const DriveProfile& profile) {
     check.require_known(table, field_table);
     RegisterField field;
     read_name(check, table, profile, field);
     const std::string where = fmt::format("field {}", in_quotes(field.name));
+    read_table(check, table, profile, field);
     if (const toml::node* node = table.get("width")) {
         const auto width = TomlChecker::whole_of(*node).value_or(0);
         if (width != 16 && width != 32 && width != 64) {
@@ -188,7 +215,11 @@ RegisterField read_field(const TomlChecker& check, const toml::table& table, con
                        unit_names[static_cast<std::size_t>(expected)]);
         }
     }
+    const bool inputs = field.table == RegisterTable::input || field.table == RegisterTable::discrete;
     check.take(table, field_table, "access", field.access);
+    if (inputs && field.writable()) {
+        check.fail(*table.get("access"), "inputs cannot be written; say access = \"read\", or leave it out");
+    }
     read_scale(check, table, field);
     check.take(table, field_table, "flash", field.flash);
     field.value = std::clamp(std::int64_t{0}, field.lowest, field.highest);
@@ -231,8 +262,15 @@ void read_link(const TomlChecker& check, const toml::table& root, DriveProfile& 
 // What cannot travel in a frame of the drive's.
 void require_frame(const TomlChecker& check, const toml::table& table, const RegisterField& field,
                    const LinkSettings& link) {
+    constexpr std::array reads_by{3, 4, 1, 2}; // by table
+    const int read_by = reads_by[static_cast<std::size_t>(field.table)];
+    const bool unread = field.readable() && !link.has(read_by);
+    if (unread || (field.writable() && field.table == RegisterTable::coils && !link.has(5))) {
+        check.fail(table, "field {} is {} by function {}, and `functions` of [link] does not have it",
+                   in_quotes(field.name), unread ? "read" : "written", unread ? read_by : 5);
+    }
     const auto registers = static_cast<int>(field.registers());
-    if (field.writable() && registers > 1 && !link.function_write) {
+    if (field.writable() && registers > 1 && !link.has(16)) {
         check.fail(table,
                    "field {} has {} registers, which function 16 alone writes at once, and "
                    "`functions` of [link] does not have it; say access = \"read\", or leave it out",
@@ -272,6 +310,10 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             const FieldIndex index =
                 named_field(check, entry, "fields", profile, written ? FieldUse::write : FieldUse::read);
             const RegisterField& field = profile.fields[index];
+            if (field.table != RegisterTable::holding) {
+                check.fail(entry, "field {} is of {}; a group is of holding_registers", in_quotes(field.name),
+                           table_names[static_cast<std::size_t>(field.table)]);
+            }
             const std::size_t next = group.fields.empty() ? field.address : group.address + group.registers;
             if (field.address != next) {
                 check.fail(entry, "field {} begins at {}, but the group goes on at {}; one frame has no gaps",
@@ -289,7 +331,7 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             group.fields.push_back(index);
         }
         const int most = written ? profile.link.most_write_registers : profile.link.most_read_registers;
-        if (written && group.registers > 1 && !profile.link.function_write) {
+        if (written && group.registers > 1 && !profile.link.has(16)) {
             check.fail(list, "a target group is written by function 16, and `functions` of [link] does not have it");
         }
         if (group.fields.empty() || group.registers > static_cast<std::size_t>(most)) {

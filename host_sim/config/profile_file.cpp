@@ -55,7 +55,7 @@ void require_speed(const TomlChecker& check, const DriveProfile& profile) {
 // What the way of streaming cannot do without.
 void require_complete(const TomlChecker& check, const DriveProfile& profile) {
     if (profile.stream == StreamWay::pvt) {
-        if (!profile.link.function_write) {
+        if (!profile.link.has(16)) {
             check.fail_file("stream = \"pvt\" needs function 16 in `functions` of [link]: segments are written by it");
         }
         return;
@@ -122,7 +122,7 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
     read_motion(check, root, profile);
     read_watchdog(check, root, profile);
     read_init(check, root, profile);
-    read_identity(check, root, profile);
+    read_checks(check, root, profile);
     require_complete(check, profile);
     return profile;
 }

@@ -16,6 +16,8 @@ inline constexpr std::array<std::string_view, 2> state_machine_names{"cia402", "
 inline constexpr std::array<std::string_view, 2> wire_names{"rtu", "tcp"};
 inline constexpr std::array<std::string_view, 3> parity_names{"N", "E", "O"};
 inline constexpr std::array<std::string_view, 5> unit_names{"number", "counts", "counts/s", "counts/s^2", "ms"};
+inline constexpr std::array<std::string_view, 4> table_names{"holding_registers", "input_registers", "coils",
+                                                             "discrete_inputs"};
 inline constexpr std::array<std::string_view, 2> order_names{"high_first", "low_first"};
 inline constexpr std::array<std::string_view, 3> access_names{"read_write", "read", "write"};
 inline constexpr std::array<std::string_view, 2> use_names{"target", "status"};
@@ -55,9 +57,10 @@ inline constexpr FileKey link_keys[] = {
             .low = 1,
             .names = wire_names}),
     needed(form_key("functions",
-                    R"({"type": "array", "items": {"enum": [3, 6, 16, 23]},
+                    R"({"type": "array", "items": {"enum": [1, 2, 3, 4, 5, 6, 16, 23]},
                         "allOf": [{"contains": {"const": 3}}, {"contains": {"enum": [6, 16]}}]})",
-                    "Function codes that the drive has: 3 reads, 6 writes one register, 16 several, 23 both.")),
+                    "Function codes that the drive has: 3 reads, 6 writes one register, 16 several, 23 both; "
+                    "1, 2 and 4 read coils, discrete inputs and input registers, 5 writes a coil.")),
     form_key("unit", R"({"anyOf": [{"type": "integer", "minimum": 1, "maximum": 247}, {"const": 255}]})",
              "Factory setting of the unit number; 255 with tcp alone; default 1."),
     whole_key("baud", 1200, 4000000, "Factory setting of the baud rate; default 19200."),
@@ -86,6 +89,7 @@ inline constexpr FileKey field_keys[] = {
     choice_key("role", field_role_names, "What the program knows it as; or a name of your own."),
     text_key("name", "A name of your own, where no role fits."),
     needed(whole_key("address", 0, 65536, "First register, counted from address_base.")),
+    choice_key("table", table_names, "Where the address is; default holding_registers. Others with speed alone."),
     form_key("width", R"({"enum": [16, 32, 64]})", "Bits; default 16."),
     flag_key("signed", "Two's complement; default false."),
     choice_key("word_order", order_names, "Which register of several comes first; default high_first."),
@@ -104,7 +108,13 @@ inline constexpr FileKey field_keys[] = {
     whole_key("value", any_low, any_high, "Of the register if nothing else sets it; default 0."),
 };
 inline constexpr FileTable field_table{"[[field]]", field_keys,
-                                       R"({"oneOf": [{"required": ["role"]}, {"required": ["name"]}]})"};
+                                       R"({"oneOf": [{"required": ["role"]}, {"required": ["name"]}],
+        "allOf": [{"if": {"properties": {"table": {"enum": ["input_registers", "discrete_inputs"]}}, "required": ["table"]},
+                   "then": {"properties": {"access": {"const": "read"}}}},
+                  {"if": {"properties": {"table": {"enum": ["coils", "discrete_inputs"]}}, "required": ["table"]},
+                   "then": {"properties": {"width": false, "signed": false, "word_order": false, "byte_order": false,
+                                           "scale": false, "inverse": false, "unit": false, "clamp": false,
+                                           "flash": false}}}]})"};
 
 inline constexpr FileKey group_keys[] = {
     needed(choice_key("use", use_names, "target: written in one frame; status: read in one frame.")),
@@ -188,6 +198,14 @@ inline constexpr FileKey identity_keys[] = {
 };
 inline constexpr FileTable identity_table{"[[identity]]", identity_keys, {}};
 
+inline constexpr FileKey stays_on_keys[] = {
+    field_name_key,
+    mask_key,
+    needed(whole_key("value", 0, highest_mask, "What the bits of the mask are then.")),
+    needed(text_key("sentence", "What keeps the motor on, and what to set in the drive.")),
+};
+inline constexpr FileTable stays_on_table{"[[stays_on]]", stays_on_keys, {}};
+
 inline constexpr FileKey profile_keys[] = {
     needed(form_key("name", R"({"type": "string", "pattern": "^[a-z0-9-]+$"})", "Of the profile.")),
     needed(text_key("drive", "Makes and models.")),
@@ -210,10 +228,14 @@ inline constexpr FileKey profile_keys[] = {
     table_key("watchdog", watchdog_table, "What watches the link."),
     table_key("init", init_table, "Written once, in order, before the drive is enabled.", KeyKind::tables),
     table_key("identity", identity_table, "Checked before anything is written.", KeyKind::tables),
+    table_key("stays_on", stays_on_table, "Where it holds, disable does not take the motor's power off: refused.",
+              KeyKind::tables),
 };
 inline constexpr FileTable profile_table{"the profile", profile_keys,
                                          R"({"allOf": [
         {"if": {"properties": {"states": {"const": "cia402"}}, "required": ["states"]}, "then": {"properties": {"state": {"maxItems": 0}}}},
+        {"if": {"properties": {"stream": {"enum": ["pvt", "cyclic", "blocks"]}}},
+         "then": {"properties": {"field": {"items": {"properties": {"table": {"const": "holding_registers"}}}}}}},
         {"if": {"properties": {"axes": {"minimum": 2}}, "required": ["axes"]}, "then": {"properties": {"stream": {"const": "pvt"}}}},
         {"if": {"properties": {"stream": {"const": "blocks"}}},
          "then": {"properties": {"motion": {"properties": {"change_on_the_fly": {"const": true}}, "required": ["change_on_the_fly"]}},

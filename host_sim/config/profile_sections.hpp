@@ -11,13 +11,14 @@ void read_link(const TomlChecker& check, const toml::table& root, hal::modbus::D
 /// [[field]] and [[group]]. @pre the link was read
 void read_fields(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 void read_groups(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
-/// Everything that refers to fields: states, commands, motion, watchdog, init, identity. @pre fields were read
+/// Everything that refers to fields: states, commands, motion, watchdog, init, identity, stays_on. @pre fields were
+/// read
 void read_states(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 void read_commands(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 void read_motion(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 void read_watchdog(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 void read_init(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
-void read_identity(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
+void read_checks(const TomlChecker& check, const toml::table& root, hal::modbus::DriveProfile& profile);
 
 /// The field that a key names, which must be readable or writable.
 enum class FieldUse { read, write };

@@ -47,7 +47,8 @@ DriveProfile find_profile(const std::string& name_or_file) {
         }
         names.push_back(shipped.name);
     }
-    throw UsageError("there is no profile {} (a file must end in .toml){}", in_quotes(name_or_file),
+    const bool file = name_or_file.find_first_of("./\\") != std::string::npos;
+    throw UsageError("there is no profile {}{}{}", in_quotes(name_or_file), file ? " (a file must end in .toml)" : "",
                      suggestion(name_or_file, names));
 }
 

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <modbus/modbus.h>
@@ -11,6 +12,10 @@
 #include <unistd.h>
 
 namespace splinefeed::host {
+
+using hal::modbus::is_bit;
+using hal::modbus::place_in;
+using hal::modbus::RegisterTable;
 
 namespace {
 
@@ -42,7 +47,8 @@ ModbusContext make_modbus_context(const ListenAddress& address) {
 }
 
 DriveExchange::DriveExchange(DriveModel& model, const ListenAddress& address)
-    : model_(&model), context_(make_modbus_context(address)), mapping_(modbus_mapping_new(0, 0, registers, 0)),
+    : model_(&model), context_(make_modbus_context(address)),
+      mapping_(modbus_mapping_new(registers, registers, registers, registers)),
       header_(static_cast<std::size_t>(modbus_get_header_length(context_.get()))),
       serial_(address.kind == ListenAddress::Kind::rtu) {
     std::array<int, 2> ends{-1, -1};
@@ -115,6 +121,34 @@ ModbusException DriveExchange::read(int address, int count) {
     return model_->read(address, {mapping_->tab_registers + address, static_cast<std::size_t>(count)});
 }
 
+// Of another table than the holding registers.
+ModbusException DriveExchange::read_table(RegisterTable table, int address, int count) {
+    if (count < 1 || count > (is_bit(table) ? MODBUS_MAX_READ_BITS : MODBUS_MAX_READ_REGISTERS)) {
+        return ModbusException::illegal_value;
+    }
+    if (address + count > registers) {
+        return ModbusException::illegal_address;
+    }
+    std::vector<std::uint16_t> values(static_cast<std::size_t>(count));
+    const ModbusException refused = model_->read(place_in(table, address), values);
+    if (refused == ModbusException::none && is_bit(table)) {
+        std::ranges::copy(values,
+                          (table == RegisterTable::coils ? mapping_->tab_bits : mapping_->tab_input_bits) + address);
+    } else if (refused == ModbusException::none) {
+        std::ranges::copy(values, mapping_->tab_input_registers + address);
+    }
+    return refused;
+}
+
+ModbusException DriveExchange::write_coil(int address, int value) {
+    constexpr int on = 0xFF00;
+    if (value != on && value != 0) {
+        return ModbusException::illegal_value;
+    }
+    const std::uint16_t bit = value == on ? 1 : 0;
+    return model_->write(place_in(RegisterTable::coils, address), std::span(&bit, 1));
+}
+
 ModbusException DriveExchange::write(int address, const std::uint8_t* bytes, int count) {
     if (count < 1 || count > MODBUS_MAX_WRITE_REGISTERS) {
         return ModbusException::illegal_value;
@@ -147,6 +181,10 @@ ModbusException DriveExchange::take_effect(const std::vector<std::uint8_t>& requ
     }
     switch (request[header_]) {
     case MODBUS_FC_READ_HOLDING_REGISTERS: return read(address, second);
+    case MODBUS_FC_READ_INPUT_REGISTERS: return read_table(RegisterTable::input, address, second);
+    case MODBUS_FC_READ_COILS: return read_table(RegisterTable::coils, address, second);
+    case MODBUS_FC_READ_DISCRETE_INPUTS: return read_table(RegisterTable::discrete, address, second);
+    case MODBUS_FC_WRITE_SINGLE_COIL: return write_coil(address, second);
     case MODBUS_FC_WRITE_SINGLE_REGISTER: return write(address, request.data() + at(2), 1);
     case MODBUS_FC_WRITE_MULTIPLE_REGISTERS:
         return holds(4, second) ? write(address, request.data() + at(5), second) : ModbusException::illegal_value;

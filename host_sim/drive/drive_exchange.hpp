@@ -4,6 +4,7 @@
 
 #include "host_sim/drive/drive_model.hpp"
 #include "host_sim/drive/listen_address.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <memory>
 #include <vector>
@@ -19,7 +20,7 @@ struct ModbusContextDeleter {
 };
 using ModbusContext = std::unique_ptr<_modbus, ModbusContextDeleter>;
 
-/// Function codes 03, 06, 16 and 23; exception 1 for any other. libmodbus makes the reply from a mapping that is kept
+/// Function codes 01 to 06, 16 and 23; exception 1 for any other. libmodbus makes the reply from a mapping that is kept
 /// equal to the model. The reply passes through a pair of sockets, so that it can be delayed or damaged before it is
 /// sent.
 class DriveExchange {
@@ -41,6 +42,8 @@ public:
 private:
     [[nodiscard]] ModbusException take_effect(const std::vector<std::uint8_t>& request);
     [[nodiscard]] ModbusException read(int address, int count);
+    [[nodiscard]] ModbusException read_table(hal::modbus::RegisterTable table, int address, int count);
+    [[nodiscard]] ModbusException write_coil(int address, int value);
     [[nodiscard]] ModbusException write(int address, const std::uint8_t* bytes, int count);
     [[nodiscard]] std::vector<std::uint8_t> collect() const;
     void keep_mapping(std::vector<std::uint8_t>& request) const;

@@ -46,10 +46,11 @@ public:
 
     /// Lets its time pass. @pre now_us is not before that of the last call
     virtual void advance(std::uint64_t now_us) = 0;
-    /// Reads holding registers, all or none.
-    [[nodiscard]] virtual ModbusException read(int address, std::span<std::uint16_t> out) = 0;
-    /// Writes holding registers as one frame: all or none.
-    [[nodiscard]] virtual ModbusException write(int address, std::span<const std::uint16_t> values) = 0;
+    /// Reads registers, all or none. @param place  of the first one: its address, or place_in() of another table than
+    /// the holding registers. A bit is a register of 0 or 1.
+    [[nodiscard]] virtual ModbusException read(int place, std::span<std::uint16_t> out) = 0;
+    /// Writes registers as one frame: all or none.
+    [[nodiscard]] virtual ModbusException write(int place, std::span<const std::uint16_t> values) = 0;
     /// Power off and on: the shafts stay where they are; everything that is not in flash is lost.
     virtual void power_cycle() = 0;
     /// A fault: the word order of numbers of several registers is reversed from now on. A second call restores it.

@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t longest_field = 4; // registers
 constexpr std::array stop_commands{DriveCommand::quick_stop, DriveCommand::halt, DriveCommand::stop};
 
-bool lies_in(const RegisterField& field, int address, std::size_t count) {
-    return field.address >= address && field.address + field.registers() <= static_cast<std::size_t>(address) + count;
+bool lies_in(const RegisterField& field, int place, std::size_t count) {
+    return field.place() >= place &&
+           field.place() + static_cast<int>(field.registers()) <= place + static_cast<int>(count);
 }
 
 } // namespace
@@ -29,21 +30,21 @@ bool FaultyDrive::is_state(FieldIndex index) const {
            std::ranges::any_of(profile_.states, [index](const StateTest& test) { return test.test.field == index; });
 }
 
-ModbusException FaultyDrive::read(int address, std::span<std::uint16_t> out) {
-    const ModbusException refused = drive_->read(address, out);
+ModbusException FaultyDrive::read(int place, std::span<std::uint16_t> out) {
+    const ModbusException refused = drive_->read(place, out);
     if (refused != ModbusException::none) {
         return refused;
     }
     for (FieldIndex i = 0; i < told_.size(); ++i) {
         const RegisterField& field = profile_.fields[i];
-        if (!field.readable() || !lies_in(field, address, out.size())) {
+        if (!field.readable() || !lies_in(field, place, out.size())) {
             continue;
         }
         const std::span<std::uint16_t> in_frame =
-            out.subspan(static_cast<std::size_t>(field.address - address), field.registers());
+            out.subspan(static_cast<std::size_t>(field.place() - place), field.registers());
         const bool state = is_state(i);
-        const bool place = field.role == FieldRole::actual_position || field.role == FieldRole::actual_velocity;
-        const bool stuck = (state && faults_.stuck_state) || (place && faults_.stuck_place);
+        const bool located = field.role == FieldRole::actual_position || field.role == FieldRole::actual_velocity;
+        const bool stuck = (state && faults_.stuck_state) || (located && faults_.stuck_place);
         told_[i] = stuck ? told_[i] : state && faults_.state ? *faults_.state : take_raw(field, in_frame);
         const bool dithers = field.role == FieldRole::actual_position;
         const std::int64_t noise_q16 =
@@ -55,12 +56,12 @@ ModbusException FaultyDrive::read(int address, std::span<std::uint16_t> out) {
 }
 
 // A frame that has all bits of the first step of a stop, and is no step of `disable`: 0 in a control word is both.
-bool FaultyDrive::stops(int address, std::span<const std::uint16_t> values) const {
+bool FaultyDrive::stops(int place, std::span<const std::uint16_t> values) const {
     const auto has = [&](const CommandStep& step) {
         const RegisterField& field = profile_.fields[step.field];
-        return lies_in(field, address, values.size()) &&
+        return lies_in(field, place, values.size()) &&
                holds({step.field, step.mask, step.value},
-                     take_raw(field, values.subspan(static_cast<std::size_t>(field.address - address))));
+                     take_raw(field, values.subspan(static_cast<std::size_t>(field.place() - place))));
     };
     const std::vector<CommandStep>& off = profile_.steps_of(DriveCommand::disable);
     return std::ranges::none_of(off, has) && std::ranges::any_of(stop_commands, [&](DriveCommand command) {
@@ -69,9 +70,9 @@ bool FaultyDrive::stops(int address, std::span<const std::uint16_t> values) cons
            });
 }
 
-ModbusException FaultyDrive::write(int address, std::span<const std::uint16_t> values) {
-    return faults_.refuses_stops && stops(address, values) ? ModbusException::device_failure
-                                                           : drive_->write(address, values);
+ModbusException FaultyDrive::write(int place, std::span<const std::uint16_t> values) {
+    return faults_.refuses_stops && stops(place, values) ? ModbusException::device_failure
+                                                         : drive_->write(place, values);
 }
 
 void FaultyDrive::swap_words() {
@@ -89,7 +90,7 @@ void FaultyDrive::second_master() {
             const RegisterField& field = profile_.fields[step.field];
             std::array<std::uint16_t, longest_field> in_frame{};
             put_raw(field, step.value, in_frame);
-            static_cast<void>(drive_->write(field.address, std::span(in_frame).first(field.registers())));
+            static_cast<void>(drive_->write(field.place(), std::span(in_frame).first(field.registers())));
         }
         if (!profile_.steps_of(command).empty()) {
             return;

@@ -17,8 +17,8 @@ public:
     FaultyDrive(std::unique_ptr<DriveModel> drive, hal::modbus::DriveProfile profile);
 
     void advance(std::uint64_t now_us) override { drive_->advance(now_us); }
-    [[nodiscard]] ModbusException read(int address, std::span<std::uint16_t> out) override;
-    [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override;
+    [[nodiscard]] ModbusException read(int place, std::span<std::uint16_t> out) override;
+    [[nodiscard]] ModbusException write(int place, std::span<const std::uint16_t> values) override;
     void power_cycle() override { drive_->power_cycle(); }
     void swap_words() override;
     void set_faults(const ModelFaults& faults) override { faults_ = faults; }
@@ -28,7 +28,7 @@ public:
 
 private:
     [[nodiscard]] bool is_state(hal::modbus::FieldIndex index) const;
-    [[nodiscard]] bool stops(int address, std::span<const std::uint16_t> values) const;
+    [[nodiscard]] bool stops(int place, std::span<const std::uint16_t> values) const;
 
     std::unique_ptr<DriveModel> drive_;
     hal::modbus::DriveProfile profile_;

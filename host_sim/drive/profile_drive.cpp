@@ -29,6 +29,7 @@ ProfileDrive::ProfileDrive(DriveProfile profile, const ProfileDriveParameters& p
     if (parameters_.period_us == 0) {
         parameters_.period_us = profile_.period_us != 0 ? profile_.period_us : usual_us;
     }
+    keep_on();
 }
 
 std::int64_t ProfileDrive::raw(FieldRole role) const {
@@ -75,7 +76,20 @@ ModbusException ProfileDrive::write(int address, std::span<const std::uint16_t> 
     } else {
         execute_masks(before);
     }
+    keep_on();
     return ModbusException::none;
+}
+
+bool ProfileDrive::stays_on() const {
+    return std::ranges::any_of(profile_.stays_on, [this](const DriveProfile::SetupCheck& check) {
+        return holds(check.test, registers_.raw(check.test.field));
+    });
+}
+
+void ProfileDrive::keep_on() {
+    if (stays_on()) {
+        axis_.enable();
+    }
 }
 
 void ProfileDrive::take_settings() {
@@ -190,6 +204,9 @@ void ProfileDrive::execute(DriveCommand command) {
     switch (command) {
     case DriveCommand::enable: axis_.enable(); break;
     case DriveCommand::disable:
+        if (stays_on()) {
+            break;
+        }
         axis_.disable();
         halted_ = quick_stopped_ = false;
         break;
@@ -244,6 +261,7 @@ void ProfileDrive::power_cycle() {
     written_once_ = halted_ = quick_stopped_ = watchdog_fired_ = false;
     queued_.reset();
     target_ = axis_.shaft().position_counts();
+    keep_on();
 }
 
 // What is read.

@@ -3,7 +3,8 @@
 // by masks; positioning moves that may change on the fly, or cyclic targets.
 //
 // Some behaviour is not in a profile and is assumed: a command takes effect when its first step is seen; commands that
-// the profile does not distinguish (halt and quick stop by the same bit) are one.
+// the profile does not distinguish (halt and quick stop by the same bit) are one. While a test of stays_on holds, its
+// motor has power, from the start and whatever it is told, as that of a drive whose enable input is normally closed.
 #pragma once
 
 #include "host_sim/drive/cia402_machine.hpp"
@@ -54,6 +55,8 @@ private:
     [[nodiscard]] bool is_commanded(hal::modbus::DriveCommand command, const std::vector<std::int64_t>& before) const;
     void execute(hal::modbus::DriveCommand command);
     [[nodiscard]] bool follows_targets() const;
+    [[nodiscard]] bool stays_on() const;
+    void keep_on();
     void start(bool immediately, bool relative);
     void halt();
     void resume();

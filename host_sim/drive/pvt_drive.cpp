@@ -14,6 +14,8 @@ namespace pvt = hal::modbus::pvt;
 
 namespace {
 
+constexpr int other_tables = 65536; // the first place behind the holding registers
+
 // Numbers of 32 and 48 bits, by their first register, with the words the other way round.
 void swap_number(std::span<std::uint16_t> values, std::size_t at, std::size_t words) noexcept {
     if (at + words <= values.size()) {
@@ -95,6 +97,9 @@ void PvtDrive::second_master() {
 }
 
 ModbusException PvtDrive::read(int address, std::span<std::uint16_t> out) {
+    if (address >= other_tables) {
+        return ModbusException::illegal_function;
+    }
     const std::optional<PvtTable> table = hal::modbus::table_of(address, out.size(), axes());
     if (!swapped_ || !table) {
         return registers_.read(address, out);
@@ -108,6 +113,9 @@ ModbusException PvtDrive::read(int address, std::span<std::uint16_t> out) {
 }
 
 ModbusException PvtDrive::write(int address, std::span<const std::uint16_t> values) {
+    if (address >= other_tables) {
+        return ModbusException::illegal_function;
+    }
     if (!swapped_) {
         return registers_.write(address, values);
     }

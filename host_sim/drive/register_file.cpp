@@ -9,6 +9,24 @@ namespace splinefeed::host {
 
 using namespace hal::modbus;
 
+namespace {
+
+constexpr int addresses = 65536; // of a table
+
+int places_of(const DriveProfile& profile) {
+    int places = addresses;
+    for (const RegisterField& field : profile.fields) {
+        places = std::max(places, place_in(field.table, addresses));
+    }
+    return places;
+}
+
+std::size_t begin_of(const RegisterField& field) {
+    return static_cast<std::size_t>(field.place());
+}
+
+} // namespace
+
 std::int64_t with_test(std::int64_t raw, const FieldTest& test, bool truth) {
     const std::int64_t mask = test.mask;
     const std::int64_t made = (raw & ~mask) | static_cast<std::int64_t>(test.value);
@@ -16,11 +34,11 @@ std::int64_t with_test(std::int64_t raw, const FieldTest& test, bool truth) {
 }
 
 RegisterFile::RegisterFile(const DriveProfile& profile)
-    : fields_(profile.fields), read_(addresses), written_(addresses), reader_(addresses, nobody),
-      writer_(addresses, nobody) {
+    : fields_(profile.fields), places_(places_of(profile)), read_(static_cast<std::size_t>(places_)), written_(read_),
+      reader_(read_.size(), nobody), writer_(read_.size(), nobody) {
     for (std::uint32_t i = 0; i < fields_.size(); ++i) {
         const RegisterField& field = fields_[i];
-        for (std::size_t at = field.address; at < field.address + field.registers(); ++at) {
+        for (std::size_t at = begin_of(field); at < begin_of(field) + field.registers(); ++at) {
             reader_[at] = field.readable() ? i : reader_[at];
             writer_[at] = field.writable() ? i : writer_[at];
         }
@@ -37,12 +55,12 @@ void RegisterFile::reset() {
 
 // One image where a field is both read and written: the one that is read.
 std::span<std::uint16_t> RegisterFile::image_of(const RegisterField& field) {
-    return std::span(field.readable() ? read_ : written_).subspan(field.address, field.registers());
+    return std::span(field.readable() ? read_ : written_).subspan(begin_of(field), field.registers());
 }
 
 std::int64_t RegisterFile::raw(FieldIndex index) const {
     const RegisterField& field = fields_[index];
-    return take_raw(field, std::span(field.readable() ? read_ : written_).subspan(field.address, field.registers()));
+    return take_raw(field, std::span(field.readable() ? read_ : written_).subspan(begin_of(field), field.registers()));
 }
 
 void RegisterFile::set(FieldIndex index, std::int64_t raw) {
@@ -51,7 +69,7 @@ void RegisterFile::set(FieldIndex index, std::int64_t raw) {
 
 bool RegisterFile::was_written(FieldIndex index) const {
     const RegisterField& field = fields_[index];
-    return field.address >= last_address_ && field.address < last_address_ + static_cast<int>(last_count_);
+    return field.place() >= last_place_ && field.place() < last_place_ + static_cast<int>(last_count_);
 }
 
 void RegisterFile::swap_words() {
@@ -65,32 +83,41 @@ void RegisterFile::swap_words() {
 }
 
 // Neither end of the span cuts a number in two.
-bool RegisterFile::whole(const std::vector<std::uint32_t>& owner, int address, std::size_t count) const {
-    const auto first = static_cast<std::size_t>(address);
+bool RegisterFile::whole(const std::vector<std::uint32_t>& owner, int place, std::size_t count) const {
+    const auto first = static_cast<std::size_t>(place);
     const std::size_t behind = first + count;
     const std::uint32_t begins = owner[first];
     const std::uint32_t ends = owner[behind - 1];
-    return begins != nobody && fields_[begins].address == first &&
-           (ends == nobody || fields_[ends].address + fields_[ends].registers() == behind);
+    return begins != nobody && begin_of(fields_[begins]) == first &&
+           (ends == nobody || begin_of(fields_[ends]) + fields_[ends].registers() == behind);
 }
 
-ModbusException RegisterFile::read(int address, std::span<std::uint16_t> out) const {
-    if (out.empty() || address < 0 || address + static_cast<int>(out.size()) > addresses ||
-        !whole(reader_, address, out.size())) {
+bool RegisterFile::in_table(int place, std::size_t count) const {
+    const int last = place + static_cast<int>(count) - 1;
+    return count > 0 && place >= 0 && last < places_ && place / addresses == last / addresses;
+}
+
+ModbusException RegisterFile::read(int place, std::span<std::uint16_t> out) const {
+    if (place >= places_) {
+        return ModbusException::illegal_function; // of a table that the drive does not have
+    }
+    if (!in_table(place, out.size()) || !whole(reader_, place, out.size())) {
         return ModbusException::illegal_address;
     }
-    std::copy_n(read_.begin() + address, out.size(), out.begin());
+    std::copy_n(read_.begin() + place, out.size(), out.begin());
     return ModbusException::none;
 }
 
-ModbusException RegisterFile::write(int address, std::span<const std::uint16_t> values) {
-    if (values.empty() || address < 0 || address + static_cast<int>(values.size()) > addresses ||
-        !whole(writer_, address, values.size())) {
+ModbusException RegisterFile::write(int place, std::span<const std::uint16_t> values) {
+    if (place >= places_) {
+        return ModbusException::illegal_function; // of a table that the drive does not have
+    }
+    if (!in_table(place, values.size()) || !whole(writer_, place, values.size())) {
         return ModbusException::illegal_address;
     }
     std::size_t at = 0;
     while (at < values.size()) {
-        const std::uint32_t index = writer_[static_cast<std::size_t>(address) + at];
+        const std::uint32_t index = writer_[static_cast<std::size_t>(place) + at];
         if (index == nobody) {
             return ModbusException::illegal_address;
         }
@@ -102,11 +129,11 @@ ModbusException RegisterFile::write(int address, std::span<const std::uint16_t> 
         at += field.registers();
     }
     for (at = 0; at < values.size();) {
-        const RegisterField& field = fields_[writer_[static_cast<std::size_t>(address) + at]];
+        const RegisterField& field = fields_[writer_[static_cast<std::size_t>(place) + at]];
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(at), field.registers(), image_of(field).begin());
         at += field.registers();
     }
-    last_address_ = address;
+    last_place_ = place;
     last_count_ = values.size();
     return ModbusException::none;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RegisterFile: the registers that a drive profile names, as the drive holds them. Reading and writing may use two
-// different images at one address.
+// RegisterFile: the registers and bits that a drive profile names, as the drive holds them. Reading and writing may use
+// two different images at one address.
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
@@ -21,8 +21,8 @@ public:
 
     /// A number is read and written as a whole, and a frame begins with a number; otherwise illegal_address. Registers
     /// between the numbers read as 0 and cannot be written. A value out of its range gives illegal_value.
-    [[nodiscard]] ModbusException read(int address, std::span<std::uint16_t> out) const;
-    [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values);
+    [[nodiscard]] ModbusException read(int place, std::span<std::uint16_t> out) const;
+    [[nodiscard]] ModbusException write(int place, std::span<const std::uint16_t> values);
 
     /// The value that was written, or that will be read.
     [[nodiscard]] std::int64_t raw(hal::modbus::FieldIndex index) const;
@@ -35,17 +35,17 @@ public:
 
 private:
     static constexpr std::uint32_t nobody = 0xFFFFFFFF;
-    static constexpr int addresses = 65536;
-
-    [[nodiscard]] bool whole(const std::vector<std::uint32_t>& owner, int address, std::size_t count) const;
+    [[nodiscard]] bool in_table(int place, std::size_t count) const;
+    [[nodiscard]] bool whole(const std::vector<std::uint32_t>& owner, int place, std::size_t count) const;
     [[nodiscard]] std::span<std::uint16_t> image_of(const hal::modbus::RegisterField& field);
 
     std::vector<hal::modbus::RegisterField> fields_; // in the present word order
+    int places_;                                     // of the tables up to the last one that a field is in
     std::vector<std::uint16_t> read_;
     std::vector<std::uint16_t> written_;
     std::vector<std::uint32_t> reader_; // for each register the field to which it belongs, or nobody
     std::vector<std::uint32_t> writer_;
-    int last_address_ = 0;
+    int last_place_ = 0;
     std::size_t last_count_ = 0;
 };
 

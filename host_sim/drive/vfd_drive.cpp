@@ -45,8 +45,8 @@ bool VfdDrive::is_commanded(DriveCommand command) const {
            });
 }
 
-ModbusException VfdDrive::write(int address, std::span<const std::uint16_t> values) {
-    const ModbusException refused = registers_.write(address, values);
+ModbusException VfdDrive::write(int place, std::span<const std::uint16_t> values) {
+    const ModbusException refused = registers_.write(place, values);
     if (refused != ModbusException::none) {
         return refused;
     }
@@ -82,9 +82,9 @@ void VfdDrive::refresh() {
     }
 }
 
-ModbusException VfdDrive::read(int address, std::span<std::uint16_t> out) {
+ModbusException VfdDrive::read(int place, std::span<std::uint16_t> out) {
     refresh();
-    return registers_.read(address, out);
+    return registers_.read(place, out);
 }
 
 void VfdDrive::power_cycle() {

@@ -19,8 +19,8 @@ public:
     VfdDrive(hal::modbus::DriveProfile profile, const VfdDriveParameters& parameters);
 
     void advance(std::uint64_t now_us) override;
-    [[nodiscard]] ModbusException read(int address, std::span<std::uint16_t> out) override;
-    [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override;
+    [[nodiscard]] ModbusException read(int place, std::span<std::uint16_t> out) override;
+    [[nodiscard]] ModbusException write(int place, std::span<const std::uint16_t> values) override;
     void power_cycle() override;
     [[nodiscard]] int axes() const override { return 1; }
     /// Thousandths of a period of the output, summed with the sign of the direction.

@@ -7,6 +7,7 @@
 
 #include <modbus/modbus.h>
 #include <poll.h>
+#include <unistd.h>
 
 using namespace splinefeed::hal::modbus;
 using splinefeed::test::DriveProcess;
@@ -106,6 +107,43 @@ bool installed(const Tool& tool, const std::string& program) {
 }
 
 } // namespace
+
+TEST_CASE("Drive process: functions 01, 02, 04 and 05, spoken to by libmodbus", "[process]") {
+    const Tool tool;
+    DriveProcess process(tool, "--profile vfd-h100 --ramp 1000 --listen tcp://127.0.0.1:0");
+    Client client(modbus_new_tcp("127.0.0.1", process.port()));
+    REQUIRE(client.connect());
+    modbus_t* const line = client.context();
+    std::uint16_t output = 7;
+    REQUIRE(modbus_read_input_registers(line, 0, 1, &output) == 1);
+    CHECK(output == 0);
+    CHECK(modbus_write_register(line, 0x0201, 500) == 1); // 50 Hz
+    CHECK(modbus_write_bit(line, 0x0049, 1) == 1);
+    usleep(200'000);
+    REQUIRE(modbus_read_input_registers(line, 0, 1, &output) == 1);
+    CHECK(output == 500);
+    std::uint16_t holding = 0;
+    CHECK(modbus_read_registers(line, 0, 1, &holding) == -1); // another table
+    CHECK(errno == EMBXILADD);
+    std::uint8_t bit = 0;
+    CHECK(modbus_read_bits(line, 0x0049, 1, &bit) == -1); // that coil is written only
+    CHECK(errno == EMBXILADD);
+    CHECK(modbus_read_input_bits(line, 0, 1, &bit) == -1);
+    CHECK(errno == EMBXILFUN);
+    CHECK(modbus_write_bit(line, 0x0048, 1) == -1);
+    CHECK(errno == EMBXILADD);
+    CHECK(process.stop() == 0);
+
+    DriveProcess mx2(tool, "--profile vfd-omron-mx2 --ramp 1000 --listen tcp://127.0.0.1:0");
+    Client other(modbus_new_tcp("127.0.0.1", mx2.port()));
+    REQUIRE(other.connect());
+    REQUIRE(modbus_read_bits(other.context(), 0, 1, &bit) == 1); // run
+    CHECK(bit == 0);
+    CHECK(modbus_write_bit(other.context(), 0, 1) == 1);
+    REQUIRE(modbus_read_bits(other.context(), 0, 1, &bit) == 1);
+    CHECK(bit == 1);
+    CHECK(mx2.stop() == 0);
+}
 
 TEST_CASE("drive: a short motion over TCP, and its records", "[drive][process]") {
     for (const bool with_23 : {true, false}) {

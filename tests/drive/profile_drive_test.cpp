@@ -92,6 +92,39 @@ TEST_CASE("Profile drive: quick stop, fault, fault reset and enable again, as ea
     }
 }
 
+// CS2RS-D503 manual, pages 26 and 59: the software enable can only add to input SI1, which is closed without a wire.
+TEST_CASE("Profile drive: an input that keeps the motor on does so through a disable") {
+    DriveProfile factory = find_profile("leadshine-pr");
+    REQUIRE(factory.stays_on.size() == 1);
+    RegisterField& input = factory.fields[factory.stays_on.front().test.field];
+    CHECK(input.address == 0x0145);
+    CHECK(input.value == 0); // as the profile wants it: no function
+    input.value = 0x0088;    // enable, normally closed
+    DrivenDrive drive(factory, {});
+    PositioningAxis& axis = drive.model().axis();
+    CHECK(drive.state() == DriveState::enabled);
+    drive.begin();
+    drive.move(20000.0, 30000.0, 1e6);
+    drive.wait_ms(200);
+    drive.command(DriveCommand::disable);
+    CHECK(axis.power() == AxisPower::on);
+    drive.wait_ms(1000);
+    CHECK(drive.position() == 20000); // it has not even stopped
+    drive.model().power_cycle();
+    CHECK(axis.power() == AxisPower::on);
+    axis.trip(AxisFault::following_error);
+    drive.wait_ms(10);
+    CHECK(axis.power() == AxisPower::fault);
+    drive.command(DriveCommand::fault_reset);
+    CHECK(axis.power() == AxisPower::on);
+
+    DrivenDrive right("leadshine-pr");
+    right.begin();
+    CHECK(right.model().axis().power() == AxisPower::on);
+    right.command(DriveCommand::disable);
+    CHECK(right.model().axis().power() == AxisPower::off);
+}
+
 TEST_CASE("Profile drive: homing where the profile has it") {
     for (const std::string& name : {std::string("cia402-kinco"), std::string("leadshine-pr"),
                                     std::string("oriental-az"), std::string("cia402-index")}) {

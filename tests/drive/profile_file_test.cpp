@@ -24,10 +24,10 @@ TEST_CASE("A drive profile is read") {
     CHECK(profile.link.turnaround_us == 2000);
     CHECK(profile.link.response_timeout_us == 80000);
     CHECK(profile.link.retries == 5);
-    CHECK(profile.link.function_read);
-    CHECK_FALSE(profile.link.function_write_one);
-    CHECK(profile.link.function_write);
-    CHECK_FALSE(profile.link.function_exchange);
+    CHECK(profile.link.has(3));
+    CHECK_FALSE(profile.link.has(6));
+    CHECK(profile.link.has(16));
+    CHECK_FALSE(profile.link.has(23));
     CHECK(profile.link.most_read_registers == 20);
     CHECK(profile.link.most_write_registers == 10);
     CHECK(profile.link.reads_zero_until_written);
@@ -72,6 +72,8 @@ TEST_CASE("A drive profile is read") {
     CHECK(profile.watchdog_reaction == WatchdogReaction::quick_stop);
     CHECK(profile.init.front().value == 200);
     CHECK(profile.identity.front().sentence == "this is another drive");
+    CHECK(profile.stays_on.front().sentence == "an input keeps it on");
+    CHECK(profile.stays_on.front().test.mask == 0x4000);
 }
 
 TEST_CASE("What a profile may leave out") {

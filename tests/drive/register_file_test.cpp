@@ -53,6 +53,30 @@ TEST_CASE("Register file: numbers are read and written whole, and unknown regist
     CHECK(file.read(65534, std::span(read).first(3)) == ModbusException::illegal_address);
 }
 
+TEST_CASE("Register file: each table has addresses of its own, and no frame reaches into the next one") {
+    DriveProfile profile;
+    profile.fields = {field(65535, 16, FieldAccess::read_write, 100), field(0, 16, FieldAccess::read),
+                      field(0, 1, FieldAccess::read_write, 1)};
+    profile.fields[1].table = RegisterTable::input;
+    profile.fields[2].table = RegisterTable::coils;
+    RegisterFile file(profile);
+    file.set(1, 7);
+    Registers registers{1, 0, 0, 0};
+    const int input = place_in(RegisterTable::input, 0);
+    const int coil = place_in(RegisterTable::coils, 0);
+    CHECK(file.write(coil, std::span(registers).first(1)) == ModbusException::none);
+    CHECK(file.raw(2) == 1);
+    CHECK(file.was_written(2));
+    CHECK_FALSE(file.was_written(0));
+    CHECK(file.write(input, std::span(registers).first(1)) == ModbusException::illegal_address);
+    CHECK(file.read(input, std::span(registers).first(1)) == ModbusException::none);
+    CHECK(registers[0] == 7);
+    CHECK(file.read(65535, std::span(registers).first(1)) == ModbusException::none);
+    CHECK(file.read(65535, std::span(registers).first(2)) == ModbusException::illegal_address);
+    CHECK(file.read(place_in(RegisterTable::discrete, 0), std::span(registers).first(1)) ==
+          ModbusException::illegal_function);
+}
+
 TEST_CASE("Register file: two images at one address, reset, and words that swap") {
     DriveProfile profile;
     profile.fields = {field(0, 32, FieldAccess::read), field(0, 32, FieldAccess::write)};

@@ -22,8 +22,8 @@ TEST_CASE("Every shipped profile is read, has its file's name, and says what it 
         names.insert(profile.name);
     }
     CHECK(names == std::set<std::string>{"cia402-index", "cia402-kinco", "leadshine-pr", "lexium32m", "oriental-az",
-                                         "splinefeed-pvt", "vfd-delta-ms300", "vfd-gs2", "vfd-ls-ig5a", "vfd-optidrive",
-                                         "vfd-yl620"});
+                                         "splinefeed-pvt", "vfd-delta-ms300", "vfd-gs2", "vfd-h100", "vfd-ls-ig5a",
+                                         "vfd-omron-mx2", "vfd-optidrive", "vfd-yl620"});
 }
 
 TEST_CASE("The shipped profiles have what their makers' documents say") {
@@ -47,6 +47,9 @@ TEST_CASE("The shipped profiles have what their makers' documents say") {
     CHECK(leadshine.group_for(GroupUse::target)->address == 0x6200);
     CHECK(leadshine.group_for(GroupUse::target)->registers == 8);
     CHECK(leadshine.field_of(FieldRole::actual_position)->address == 0x602C);
+    REQUIRE(leadshine.stays_on.size() == 1); // SI1 is enable, normally closed
+    CHECK(leadshine.fields[leadshine.stays_on.front().test.field].address == 0x0145);
+    CHECK(leadshine.stays_on.front().test.value == 0x0088);
     REQUIRE(leadshine.link.exchanges.size() == 4);
     CHECK(leadshine.link.exchanges[3].duration_us == 3080);
 
@@ -69,6 +72,15 @@ TEST_CASE("The shipped profiles have what their makers' documents say") {
     CHECK(delta.field_of(FieldRole::actual_velocity)->address == 0x2103);
     CHECK(delta.steps_of(DriveCommand::forward).front().value == 0x12);
 
+    const DriveProfile mx2 = find_profile("vfd-omron-mx2");
+    CHECK(mx2.fields[mx2.index_of("run")].place() == place_in(RegisterTable::coils, 0)); // coil 1 of its manual
+    CHECK(mx2.fields[mx2.index_of("alarm")].place() == place_in(RegisterTable::coils, 0x17));
+    CHECK(mx2.field_of(FieldRole::actual_velocity)->address == 0x1000);
+
+    const DriveProfile h100 = find_profile("vfd-h100");
+    CHECK(h100.field_of(FieldRole::actual_velocity)->table == RegisterTable::input);
+    CHECK(h100.fields[h100.steps_of(DriveCommand::stop).front().field].place() == place_in(RegisterTable::coils, 0x4B));
+
     const DriveProfile optidrive = find_profile("vfd-optidrive");
     CHECK(optidrive.field_of(FieldRole::control)->address == 0); // register 1 of its manual
     CHECK(optidrive.field_of(FieldRole::actual_velocity)->address == 6);
@@ -76,7 +88,7 @@ TEST_CASE("The shipped profiles have what their makers' documents say") {
 
     const DriveProfile pvt = find_profile("splinefeed-pvt");
     CHECK(pvt.axes == 6);
-    CHECK(pvt.link.function_exchange);
+    CHECK(pvt.link.has(23));
     CHECK(pvt.identity.size() == 4);
 }
 
@@ -94,7 +106,7 @@ TEST_CASE("No shipped profile writes flash where it writes again and again") {
 TEST_CASE("A profile that is not there is refused with the nearest name") {
     const std::string told =
         splinefeed_test::refusal_of<UsageError>([] { static_cast<void>(find_profile("leadshine")); });
-    CHECK(told == "there is no profile 'leadshine' (a file must end in .toml); did you mean 'leadshine-pr'?");
+    CHECK(told == "there is no profile 'leadshine'; did you mean 'leadshine-pr'?");
     CHECK(splinefeed_test::refusal_of([] {
               static_cast<void>(find_profile("nowhere.toml"));
           }).rfind("nowhere.toml: cannot be opened", 0) == 0);

@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+using namespace splinefeed::hal::modbus;
 using namespace splinefeed::host;
 
 namespace {
@@ -47,6 +48,29 @@ TEST_CASE("A simulated inverter ramps to the speed that was written while it is 
     drive.advance(13 * second_us);
     CHECK(drive.output_hz() == 0.0);
     CHECK((get(drive, 0x2101) & 3) != 3);
+}
+
+TEST_CASE("A simulated inverter of coils turns by them, and reads its output from an input register") {
+    VfdDrive drive(find_profile("vfd-h100"), {.ramp_hz_s = 100.0});
+    const auto coil = [](int address) {
+        return place_in(RegisterTable::coils, address);
+    };
+    const int output = place_in(RegisterTable::input, 0);
+    drive.advance(0);
+    REQUIRE(put(drive, 0x0201, 1000) == ModbusException::none); // 100 Hz
+    REQUIRE(put(drive, coil(0x49), 1) == ModbusException::none);
+    drive.advance(2 * second_us);
+    CHECK(drive.output_hz() == 100.0);
+    CHECK(get(drive, output) == 1000);
+    REQUIRE(put(drive, coil(0x4B), 1) == ModbusException::none);
+    CHECK(drive.direction() == 0);
+    REQUIRE(put(drive, coil(0x4A), 1) == ModbusException::none); // though those of forward and stop still stand
+    CHECK(drive.direction() == -1);
+    REQUIRE(put(drive, coil(0x49), 0) == ModbusException::none); // is no command
+    CHECK(drive.direction() == -1);
+    CHECK(put(drive, coil(0x49), 2) == ModbusException::illegal_value);
+    CHECK(put(drive, coil(0x48), 1) == ModbusException::illegal_address);
+    CHECK(put(drive, output, 1) == ModbusException::illegal_address);
 }
 
 TEST_CASE("A simulated inverter reports that its speed is reached, and its fault, where the profile has that") {

@@ -46,6 +46,29 @@ TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a 
     }
 }
 
+TEST_CASE("Set-point port, virtual: a drive that nobody can switch off is refused before anything is written",
+          "[ports]") {
+    for (const bool factory : {true, false}) {
+        INFO("as from the factory: " << factory);
+        SetpointPlant plant({.profile = "leadshine-pr", .drives = 1, .change_drives = [&](DriveProfile& theirs) {
+                                 theirs.fields[theirs.index_of("input_1")].value = factory ? 0x0088 : 0;
+                             }});
+        plant.make();
+        const PortFailure failure = plant.port->open();
+        CHECK((failure.what.find("stays on when the program disables it") != std::string::npos) == factory);
+        CHECK(plant.drives[0]->axis().power() ==
+              (factory ? splinefeed::host::AxisPower::on : splinefeed::host::AxisPower::off));
+        if (!factory) {
+            CHECK_FALSE(failure);
+            REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
+            CHECK(plant.drives[0]->axis().power() == splinefeed::host::AxisPower::on);
+            plant.port->power_off();
+            plant.clock.sleep_us(500'000);
+            CHECK(plant.drives[0]->axis().power() == splinefeed::host::AxisPower::off);
+        }
+    }
+}
+
 TEST_CASE("Set-point port, virtual: segments of any duration fit the buffer", "[ports]") {
     struct Short {
         std::uint32_t segment_us;

@@ -5,10 +5,13 @@
 
 namespace splinefeed_test {
 
+using splinefeed::hal::modbus::BitTable;
 using splinefeed::hal::modbus::exchange_bytes;
 using splinefeed::hal::modbus::ExchangeBytes;
 using splinefeed::hal::modbus::frame_us;
 using splinefeed::hal::modbus::LinkFault;
+using splinefeed::hal::modbus::place_in;
+using splinefeed::hal::modbus::RegisterTable;
 using splinefeed::hal::modbus::silence_us;
 using splinefeed::hal::modbus::Wire;
 using splinefeed::host::DriveModel;
@@ -246,6 +249,24 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLink::read(int unit, int address, s
             return model.read(address, in);
         };
     });
+}
+
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::read_inputs(int unit, int address,
+                                                               std::span<std::uint16_t> out) noexcept {
+    return read(unit, place_in(RegisterTable::input, address), out);
+}
+
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::read_bit(int unit, BitTable table, int address, bool& out) noexcept {
+    std::uint16_t bit = 0;
+    const RegisterTable where = table == BitTable::coils ? RegisterTable::coils : RegisterTable::discrete;
+    const LinkAnswer answer = read(unit, place_in(where, address), std::span(&bit, 1));
+    out = answer.ok() ? bit != 0 : out;
+    return answer;
+}
+
+splinefeed::hal::modbus::LinkAnswer SimulatedLink::write_coil(int unit, int address, bool on) noexcept {
+    const std::uint16_t bit = on ? 1 : 0;
+    return write(unit, place_in(RegisterTable::coils, address), std::span(&bit, 1));
 }
 
 splinefeed::hal::modbus::LinkAnswer SimulatedLink::write(int unit, int address,

@@ -6,6 +6,7 @@
 #include "host_sim/drive/drive_model.hpp"
 #include "splinefeed/hal/modbus/link/modbus_wire.hpp"
 #include "splinefeed/hal/modbus/link/open_answers.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <deque>
 #include <map>
@@ -101,6 +102,9 @@ public:
     LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                         std::span<std::uint16_t> out) noexcept override;
+    LinkAnswer read_inputs(int unit, int address, std::span<std::uint16_t> out) noexcept override;
+    LinkAnswer read_bit(int unit, splinefeed::hal::modbus::BitTable table, int address, bool& out) noexcept override;
+    LinkAnswer write_coil(int unit, int address, bool on) noexcept override;
     void resynchronise() noexcept override {
         if (address_.wire == splinefeed::hal::modbus::Wire::rtu) { // what was on its way then is discarded
             dirty_ = behind_ = true;

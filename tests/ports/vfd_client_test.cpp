@@ -22,8 +22,10 @@ class Notebook final : public DriveModel {
 public:
     void advance(std::uint64_t /*now_us*/) override {}
     [[nodiscard]] ModbusException read(int address, std::span<std::uint16_t> out) override {
-        out[0] = registers[address];
-        return out.size() == 1 ? ModbusException::none : ModbusException::illegal_address;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            out[i] = registers[address + static_cast<int>(i)];
+        }
+        return ModbusException::none;
     }
     [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override {
         written.emplace_back(address, values[0]);
@@ -72,6 +74,27 @@ TEST_CASE("VfdClient: speeds and commands are the registers of the makers' docum
         CHECK(bench.client->command(DriveCommand::stop).ok());
         CHECK(bench.vfd->written == Writes{{0x091A, 400}, {0x091C, 1}, {0x091B, 1}, {0x091B, 0}});
     }
+    SECTION("Omron MX2: run and direction are coils, and all numbers count from 1") {
+        Bench bench("vfd-omron-mx2");
+        constexpr int run = place_in(RegisterTable::coils, 0);
+        constexpr int backwards = place_in(RegisterTable::coils, 1);
+        CHECK(bench.client->write_speed(60.0).ok());
+        CHECK(bench.client->command(DriveCommand::forward).ok());
+        CHECK(bench.client->command(DriveCommand::reverse).ok());
+        CHECK(bench.client->command(DriveCommand::stop).ok());
+        CHECK(bench.vfd->written == Writes{{1, 0x1770}, {backwards, 0}, {run, 1}, {backwards, 1}, {run, 1}, {run, 0}});
+    }
+    SECTION("Huanyang H100: a coil for each command") {
+        Bench bench("vfd-h100");
+        const auto coil = [](int address) {
+            return place_in(RegisterTable::coils, address);
+        };
+        CHECK(bench.client->write_speed(200.0).ok());
+        CHECK(bench.client->command(DriveCommand::forward).ok());
+        CHECK(bench.client->command(DriveCommand::reverse).ok());
+        CHECK(bench.client->command(DriveCommand::stop).ok());
+        CHECK(bench.vfd->written == Writes{{0x0201, 0x07D0}, {coil(0x49), 1}, {coil(0x4A), 1}, {coil(0x4B), 1}});
+    }
     SECTION("Optidrive: its manual counts registers from 1") {
         Bench bench("vfd-optidrive");
         CHECK(bench.client->write_speed(50.0).ok());
@@ -93,6 +116,31 @@ TEST_CASE("VfdClient: a reading has output, speed reached and fault", "[spindle]
     CHECK_FALSE(reading.done);
     CHECK(reading.fault);
     CHECK(reading.fault_code == 0x10);
+}
+
+TEST_CASE("VfdClient: a reading may come from coils, input registers and numbers of two registers", "[spindle]") {
+    VfdReading reading;
+    {
+        Bench bench("vfd-h100");
+        bench.vfd->registers = {{0, 9999}, {place_in(RegisterTable::input, 0), 2000}}; // 0.1 Hz
+        REQUIRE(bench.client->read(reading).ok());
+        CHECK(reading.output_hz == Approx(200.0).margin(1e-3));
+        CHECK_FALSE(reading.fault);
+    }
+    Bench bench("vfd-omron-mx2");
+    constexpr int at_speed = place_in(RegisterTable::coils, 0x13);
+    constexpr int alarm = place_in(RegisterTable::coils, 0x17);
+    bench.vfd->registers = {{0x1000, 1}, {0x1001, 0}, {at_speed, 1}, {alarm, 0}, {0x11, 5}};
+    REQUIRE(bench.client->read(reading).ok());
+    CHECK(reading.output_hz == Approx(655.36).margin(1e-3)); // the high word is first
+    CHECK(reading.done);
+    CHECK_FALSE(reading.fault);
+    bench.vfd->registers[at_speed] = 0;
+    bench.vfd->registers[alarm] = 1;
+    REQUIRE(bench.client->read(reading).ok());
+    CHECK_FALSE(reading.done);
+    CHECK(reading.fault);
+    CHECK(reading.fault_code == 5);
 }
 
 TEST_CASE("VfdClient: the speed is the nearest that the register can hold", "[spindle]") {

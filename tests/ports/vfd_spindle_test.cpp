@@ -56,7 +56,7 @@ struct Bench {
         const DriveProfile profile = vfd->profile();
         const auto write = [&](FieldIndex field, std::int64_t raw) {
             const auto value = static_cast<std::uint16_t>(raw);
-            REQUIRE(vfd->write(profile.fields[field].address, std::span(&value, 1)) == ModbusException::none);
+            REQUIRE(vfd->write(profile.fields[field].place(), std::span(&value, 1)) == ModbusException::none);
         };
         vfd->advance(plant.clock.now_us());
         const FieldIndex speed = profile.index_of(FieldRole::target_velocity);

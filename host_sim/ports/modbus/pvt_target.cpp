@@ -34,7 +34,7 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescri
             }
         }
         out.timing = timing_of(drive.profile.link);
-        out.both_in_one = drive.profile.link.function_exchange;
+        out.both_in_one = drive.profile.link.has(23);
         const std::uint32_t watchdog_ms = drive.profile.watchdog_timeout_ms;
         out.watchdog_ms = watchdog_ms > 0 ? std::optional(static_cast<std::uint16_t>(watchdog_ms)) : std::nullopt;
         if (const auto window = drive.profile.following_error_window_counts) {

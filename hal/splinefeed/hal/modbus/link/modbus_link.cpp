@@ -270,16 +270,25 @@ void ModbusLink::judge(const Request& request, int done, LinkAnswer& answer) noe
     }
 }
 
-LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
+template <class Call>
+LinkAnswer ModbusLink::read_by(const Call& call, int unit, int address, std::span<std::uint16_t> out) noexcept {
     std::array<std::uint16_t, MODBUS_MAX_READ_REGISTERS> in{};
     const int count = static_cast<int>(out.size());
     const LinkAnswer answer =
         transact({unit, RequestKind::reading, 0, exchange_bytes(context_->address, 0, out.size()), count},
-                 [&](modbus_t* modbus) { return modbus_read_registers(modbus, address, count, in.data()); });
+                 [&](modbus_t* modbus) { return call(modbus, address, count, in.data()); });
     if (answer.ok()) {
         std::memcpy(out.data(), in.data(), out.size_bytes());
     }
     return answer;
+}
+
+LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
+    return read_by(modbus_read_registers, unit, address, out);
+}
+
+LinkAnswer ModbusLink::read_inputs(int unit, int address, std::span<std::uint16_t> out) noexcept {
+    return read_by(modbus_read_input_registers, unit, address, out);
 }
 
 LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_t> values) noexcept {

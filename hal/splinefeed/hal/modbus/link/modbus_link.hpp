@@ -27,6 +27,7 @@ public:
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                         std::span<std::uint16_t> out) noexcept override;
 
+    LinkAnswer read_inputs(int unit, int address, std::span<std::uint16_t> out) noexcept override;
     LinkAnswer read_bit(int unit, BitTable table, int address, bool& out) noexcept override;
     LinkAnswer write_coil(int unit, int address, bool on) noexcept override;
 
@@ -45,6 +46,9 @@ private:
     [[nodiscard]] bool flush() noexcept;
     void judge(const Request& request, int done, LinkAnswer& answer) noexcept;
 
+    /// Reads registers by a function of libmodbus.
+    template <class Call>
+    LinkAnswer read_by(const Call& call, int unit, int address, std::span<std::uint16_t> out) noexcept;
     template <class Call>
     LinkAnswer transact(const Request& request, const Call& call) noexcept;
 

@@ -9,7 +9,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr LinkAnswer no_bits{.fault = LinkFault::exception, .exception = 1};
+constexpr LinkAnswer no_function{.fault = LinkFault::exception, .exception = 1};
 
 } // namespace
 
@@ -54,12 +54,16 @@ const char* exception_name(std::uint8_t code) noexcept {
     return code < names.size() ? names[code] : names[9];
 }
 
+LinkAnswer ModbusWire::read_inputs(int /*unit*/, int /*address*/, std::span<std::uint16_t> /*out*/) noexcept {
+    return no_function;
+}
+
 LinkAnswer ModbusWire::read_bit(int /*unit*/, BitTable /*table*/, int /*address*/, bool& /*out*/) noexcept {
-    return no_bits;
+    return no_function;
 }
 
 LinkAnswer ModbusWire::write_coil(int /*unit*/, int /*address*/, bool /*on*/) noexcept {
-    return no_bits;
+    return no_function;
 }
 
 std::unique_ptr<ModbusWire> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock) {

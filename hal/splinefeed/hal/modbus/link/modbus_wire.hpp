@@ -74,8 +74,9 @@ public:
     virtual LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                                 std::span<std::uint16_t> out) noexcept = 0;
 
-    /// Functions 01 and 02, of one bit, and 05. By default the line has no device with bits: an exception, illegal
-    /// function.
+    /// Functions 04, input registers, 01 and 02, of one bit, and 05. By default the line has no device with such: an
+    /// exception, illegal function.
+    virtual LinkAnswer read_inputs(int unit, int address, std::span<std::uint16_t> out) noexcept;
     virtual LinkAnswer read_bit(int unit, BitTable table, int address, bool& out) noexcept;
     virtual LinkAnswer write_coil(int unit, int address, bool on) noexcept;
 

@@ -43,19 +43,36 @@ enum class FieldRole : std::uint8_t {
 };
 inline constexpr std::size_t field_roles = 16;
 
+/// The four address spaces of a Modbus device.
+enum class RegisterTable : std::uint8_t {
+    holding,  ///< registers that are read and written
+    input,    ///< registers that are read
+    coils,    ///< single bits that are read and written
+    discrete, ///< single bits that are read: discrete inputs
+};
+[[nodiscard]] constexpr bool is_bit(RegisterTable table) noexcept {
+    return table == RegisterTable::coils || table == RegisterTable::discrete;
+}
+/// An address among those of all tables.
+[[nodiscard]] constexpr int place_in(RegisterTable table, int address) noexcept {
+    constexpr int addresses = 65536;
+    return static_cast<int>(table) * addresses + address;
+}
+
 enum class Significance : std::uint8_t { high_first, low_first };
 enum class FieldAccess : std::uint8_t { read_write, read, write };
 /// Unit of a physical value.
 enum class PhysicalUnit : std::uint8_t { number, counts, counts_per_s, counts_per_s2, ms };
 
-/// A number in one to four registers. The raw value in the registers is raw = physical * scale_numerator /
-/// scale_denominator, or with `inverse` scale_numerator / (scale_denominator * physical), for example for ramps in ms
-/// per 1000 rpm.
+/// A number in one to four registers, or a bit, which is a register of 0 or 1 here. The raw value in the registers is
+/// raw = physical * scale_numerator / scale_denominator, or with `inverse` scale_numerator / (scale_denominator *
+/// physical), for example for ramps in ms per 1000 rpm.
 struct RegisterField {
     std::string name;
     FieldRole role = FieldRole::none;
-    std::uint16_t address = 0;    ///< address in the frame, from 0
-    std::uint8_t width_bits = 16; ///< 16, 32 or 64
+    RegisterTable table = RegisterTable::holding; ///< another one with StreamWay::speed alone
+    std::uint16_t address = 0;                    ///< address in the frame, from 0
+    std::uint8_t width_bits = 16;                 ///< 16, 32 or 64; 1 of a bit
     bool is_signed = false;
     Significance word_order = Significance::high_first;
     Significance byte_order = Significance::high_first; ///< within a register
@@ -69,7 +86,8 @@ struct RegisterField {
     bool flash = false;     ///< every write wears the memory: never in a periodic frame
     std::int64_t value = 0; ///< raw: default value to write
 
-    [[nodiscard]] constexpr std::size_t registers() const noexcept { return width_bits / 16U; }
+    [[nodiscard]] constexpr std::size_t registers() const noexcept { return (width_bits + 15U) / 16U; }
+    [[nodiscard]] constexpr int place() const noexcept { return place_in(table, address); }
     [[nodiscard]] constexpr bool readable() const noexcept { return access != FieldAccess::write; }
     [[nodiscard]] constexpr bool writable() const noexcept { return access != FieldAccess::read; }
 };
@@ -157,12 +175,12 @@ struct LinkSettings {
     std::uint32_t silence_after_us = 0;
     std::uint32_t turnaround_us = 0; ///< time from the request to the drive's answer
     std::uint32_t response_timeout_us = 100'000;
-    int retries = 2;           ///< repetitions of an unanswered exchange; after 1 + retries consecutive time-outs a tcp
-                               ///< connection is replaced
-    bool function_read = true; ///< 03
-    bool function_write_one = true; ///< 06
-    bool function_write = true;     ///< 16
-    bool function_exchange = false; ///< 23
+    int retries = 2; ///< repetitions of an unanswered exchange; after 1 + retries consecutive time-outs a tcp
+                     ///< connection is replaced
+    std::uint32_t functions = 1U << 3U | 1U << 6U | 1U << 16U; ///< those that the drive has: a bit each, by its code
+    [[nodiscard]] constexpr bool has(int function) const noexcept {
+        return (functions >> static_cast<unsigned>(function) & 1U) != 0;
+    }
     int most_read_registers = 125;
     int most_write_registers = 123;
     int address_base = 0;                  ///< of the addresses in the file; addresses in this structure count from 0
@@ -212,11 +230,12 @@ struct DriveProfile {
     };
     std::vector<InitialValue> init; ///< written once, in order; a flash field only if its value differs
 
-    struct IdentityCheck {
+    struct SetupCheck {
         FieldTest test;
-        std::string sentence; ///< message if the test fails
+        std::string sentence; ///< message if it refuses the drive
     };
-    std::vector<IdentityCheck> identity;
+    std::vector<SetupCheck> identity; ///< must hold, before anything is written
+    std::vector<SetupCheck> stays_on; ///< must not hold: the motor has power then, whatever `disable` writes
 
     /// Index of the field of a role, or no_field. Cost: linear.
     [[nodiscard]] FieldIndex index_of(FieldRole role) const noexcept {

@@ -24,8 +24,8 @@ bool SetpointDrive::record(const LinkAnswer& answer) noexcept {
 }
 
 bool SetpointDrive::write(const RegisterWrite& write) noexcept {
-    return record(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
-                                                : link_->write_one(unit_, write.address, write.values[0]));
+    return record(profile_->link.has(16) ? link_->write(unit_, write.address, write.registers())
+                                         : link_->write_one(unit_, write.address, write.values[0]));
 }
 
 bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
@@ -83,15 +83,16 @@ bool SetpointDrive::read_status() noexcept {
     return true;
 }
 
-std::string SetpointDrive::check_identity() {
-    for (const DriveProfile::IdentityCheck& check : profile_->identity) {
+std::string SetpointDrive::check_setup(const std::vector<DriveProfile::SetupCheck>& checks, bool must_hold,
+                                       const char* unread) {
+    for (const DriveProfile::SetupCheck& check : checks) {
         const RegisterField& field = profile_->fields[check.test.field];
         std::array<std::uint16_t, 4> registers{};
         const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
         if (!retry([&] { return read(field.address, in); })) {
-            return trouble("its identity cannot be read");
+            return trouble(unread);
         }
-        if (!holds(check.test, take_raw(field, in))) {
+        if (holds(check.test, take_raw(field, in)) != must_hold) {
             return check.sentence;
         }
     }
@@ -110,7 +111,11 @@ std::string SetpointDrive::open() {
             return trouble("it cannot be written to");
         }
     }
-    if (std::string what = check_identity(); !what.empty()) {
+    if (std::string what = check_setup(profile_->identity, true, "its identity cannot be read"); !what.empty()) {
+        return what;
+    }
+    if (std::string what = check_setup(profile_->stays_on, false, "what keeps its motor on cannot be read");
+        !what.empty()) {
         return what;
     }
     return retry([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");

@@ -34,7 +34,8 @@ public:
     /// Profile and link must outlive the drive.
     SetpointDrive(const DriveProfile& profile, ModbusWire& link, int unit);
 
-    /// Connects, checks the identity and reads the status. Returns what is wrong; empty: nothing.
+    /// Connects, checks that it is the right drive and that it can be switched off, and reads the status. Returns what
+    /// is wrong; empty: nothing.
     [[nodiscard]] std::string open();
     /// Makes the stream. @pre called before everything below; open
     void configure(const SetpointSettings& settings);
@@ -118,7 +119,8 @@ private:
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
     bool record(const LinkAnswer& answer) noexcept;
     [[nodiscard]] bool write_field(FieldIndex field, std::int64_t raw);
-    [[nodiscard]] std::string check_identity();
+    [[nodiscard]] std::string check_setup(const std::vector<DriveProfile::SetupCheck>& checks, bool must_hold,
+                                          const char* unread);
 
     const DriveProfile* profile_;
     ModbusWire* link_;

@@ -38,12 +38,27 @@ LinkAnswer VfdClient::write_raw(FieldIndex index, std::int64_t raw) {
     std::array<std::uint16_t, most_registers> registers{};
     put_raw(field, raw, registers);
     const int unit = wiring_.link.unit;
-    const bool single = field.registers() == 1 && wiring_.profile.link.function_write_one;
-    const LinkAnswer answer = single ? link_->write_one(unit, field.address, registers[0])
-                                     : link_->write(unit, field.address, std::span(registers).first(field.registers()));
+    const bool single = field.registers() == 1 && wiring_.profile.link.has(6);
+    const LinkAnswer answer = field.table == RegisterTable::coils ? link_->write_coil(unit, field.address, raw != 0)
+                              : single
+                                  ? link_->write_one(unit, field.address, registers[0])
+                                  : link_->write(unit, field.address, std::span(registers).first(field.registers()));
     if (answer.ok()) {
         written_[index] = raw;
     }
+    return answer;
+}
+
+LinkAnswer VfdClient::read_registers(const RegisterField& field, std::span<std::uint16_t> out) {
+    const int unit = wiring_.link.unit;
+    if (!is_bit(field.table)) {
+        return field.table == RegisterTable::input ? link_->read_inputs(unit, field.address, out)
+                                                   : link_->read(unit, field.address, out);
+    }
+    bool on = false;
+    const BitTable table = field.table == RegisterTable::coils ? BitTable::coils : BitTable::inputs;
+    const LinkAnswer answer = link_->read_bit(unit, table, field.address, on);
+    out[0] = on ? 1 : 0;
     return answer;
 }
 
@@ -54,7 +69,7 @@ LinkAnswer VfdClient::read_raw(FieldIndex index, std::int64_t& raw) {
     const RegisterField& field = wiring_.profile.fields[index];
     std::array<std::uint16_t, most_registers> registers{};
     const std::span<std::uint16_t> out = std::span(registers).first(field.registers());
-    const LinkAnswer answer = link_->read(wiring_.link.unit, field.address, out);
+    const LinkAnswer answer = read_registers(field, out);
     if (answer.ok()) {
         raw = take_raw(field, out);
     }

@@ -48,6 +48,7 @@ public:
 private:
     [[nodiscard]] bool connected();
     [[nodiscard]] LinkAnswer write_raw(FieldIndex index, std::int64_t raw);
+    [[nodiscard]] LinkAnswer read_registers(const RegisterField& field, std::span<std::uint16_t> out);
     [[nodiscard]] LinkAnswer read_raw(FieldIndex index, std::int64_t& raw);
     [[nodiscard]] bool read_once(FieldIndex field, std::int64_t& raw, LinkAnswer& answer);
 
