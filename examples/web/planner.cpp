@@ -34,6 +34,10 @@ constexpr Option options[] = {
      [](const std::string& value, RunArguments& out) {
          out.path.curve.tolerance = value;
      }},
+    {"zero",
+     [](const std::string& value, RunArguments& out) {
+         out.zero = value;
+     }},
     {"set",
      [](const std::string& value, RunArguments& out) {
          out.settings.push_back(value);

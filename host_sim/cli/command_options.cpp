@@ -99,6 +99,9 @@ void add_gcode_options(CLI::App& app, Job& job) {
     app.add_option("--position", job.run.position,
                    "X,Y,Z: where the machine stands, in its own coordinates (default: with --home 0, else as --state "
                    "says, else where the drives say, else 0)");
+    app.add_option("--zero", job.run.zero,
+                   "X,Y,Z: where the program's zero (G54) lies on the machine, in its own coordinates (default: as "
+                   "--state says, else 0)");
     app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1");
     in_group(app);
 }

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/base/short_number.hpp"
 #include "host_sim/base/trimmed_text.hpp"
 
 #include <algorithm>
@@ -40,15 +41,6 @@ std::optional<GrblSetting> setting_of(std::string_view line, std::uint64_t numbe
 }
 
 } // namespace
-
-std::string short_number(double value) {
-    std::string text = fmt::format("{:.6f}", value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') {
-        text.pop_back();
-    }
-    return text;
-}
 
 GrblListing::GrblListing(std::string_view text, const std::string& file) : file_(file) {
     std::uint64_t line = 1;

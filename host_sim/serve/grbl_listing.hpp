@@ -44,7 +44,4 @@ private:
     std::map<std::int32_t, GrblSetting> settings_;
 };
 
-/// As a person writes it, with six decimals at most.
-[[nodiscard]] std::string short_number(double value);
-
 } // namespace splinefeed::host

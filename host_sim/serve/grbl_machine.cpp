@@ -2,6 +2,7 @@
 #include "host_sim/serve/grbl_machine.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/short_number.hpp"
 #include "host_sim/serve/grbl_listing.hpp"
 
 #include "splinefeed/controller/setting_list.hpp"
