@@ -28,5 +28,6 @@ set(host_groups
     "drive=(^|/)drive/"
     "ports=(^|/)ports/"
     "serve=(^|/)serve/"
+    "convert=(^|/)convert/"
     "motion=(^|/)(run|live|planning|analysis|machine|report)/"
     "text=.")

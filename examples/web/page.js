@@ -35,7 +35,7 @@ function say(text, isError = false) {
 
 function options() {
     const out = [];
-    for (const name of ["dialect", "ignore", "tolerance"]) {
+    for (const name of ["dialect", "ignore", "tolerance", "zero"]) {
         const value = byId(name).value.trim();
         if (value !== "" && value !== "auto") {
             out.push(`${name}=${value}`);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The planner of the page: planner PROGRAM MACHINE REPORT [NAME=VALUE...]. MACHINE is a machine file, or what a grbl
-// answers to $$; empty: the default machine. What `splinefeed plan PROGRAM --summary json --report REPORT` prints
-// goes to standard output. Status: 0, 1 or 2 as there.
+// The planner of the page: planner PROGRAM MACHINE REPORT [NAME=VALUE...]. MACHINE is a machine file, or what another
+// controller has ($$, M503, an INI file, a printer.cfg); empty: the default machine. What `splinefeed plan PROGRAM
+// --summary json --report REPORT` prints goes to standard output. Status: 0, 1 or 2 as there.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/convert/machine_source.hpp"
 #include "host_sim/run/exit_status.hpp"
 #include "host_sim/run/runner.hpp"
-#include "host_sim/serve/grbl_machine.hpp"
 
 #include <algorithm>
 #include <string>
@@ -34,6 +34,10 @@ constexpr Option options[] = {
      [](const std::string& value, RunArguments& out) {
          out.path.curve.tolerance = value;
      }},
+    {"zero",
+     [](const std::string& value, RunArguments& out) {
+         out.zero = value;
+     }},
     {"set",
      [](const std::string& value, RunArguments& out) {
          out.settings.push_back(value);
@@ -45,8 +49,12 @@ MachineDescription machine_of(const std::string& file, const std::vector<std::st
         return default_machine(settings);
     }
     const std::string text = read_text_file(file, largest_machine_file);
-    const bool is_listing = text.find("$110=") != std::string::npos || text.find("$100=") != std::string::npos;
-    return parse_machine(is_listing ? machine_of_grbl(text, file).text : text, file, settings);
+    const MachineSource* const source = find_machine_source(text);
+    if (source == nullptr) {
+        return parse_machine(text, file, settings);
+    }
+    MachineAnswers nobody(AnswerSource::nobody, file);
+    return parse_machine(machine_text(read_machine(*source, text, file, nobody)), file, settings);
 }
 
 RunArguments arguments_of(int count, char** words) {

@@ -3,6 +3,8 @@
 
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/cli/schema_command.hpp"
+#include "host_sim/convert/limit_trial.hpp"
+#include "host_sim/convert/machine_source.hpp"
 #include "host_sim/drive/drive_faults.hpp"
 #include "host_sim/ports/target_table.hpp"
 
@@ -99,6 +101,9 @@ void add_gcode_options(CLI::App& app, Job& job) {
     app.add_option("--position", job.run.position,
                    "X,Y,Z: where the machine stands, in its own coordinates (default: with --home 0, else as --state "
                    "says, else where the drives say, else 0)");
+    app.add_option("--zero", job.run.zero,
+                   "X,Y,Z: where the program's zero (G54) lies on the machine, in its own coordinates (default: as "
+                   "--state says, else 0)");
     app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1");
     in_group(app);
 }
@@ -267,18 +272,26 @@ void add_surface(CLI::App& app, Job& job, Typed& typed) {
 
 void add_machine_command(CLI::App& app, Job& job) {
     CLI::App* const machine =
-        app.add_subcommand("machine", "Say what is wrong with a machine file, or make one of the settings of grbl");
+        app.add_subcommand("machine", "Say what is wrong with a machine file, or make one of another controller's");
     machine
         ->add_option("MACHINE", job.run.path.input,
-                     "a machine file (.toml), or for --from-grbl a listing; - reads standard input")
+                     "a machine file (.toml), or with -o what another controller has: its answer to $$ or M503, "
+                     "its INI file, its printer.cfg; - reads standard input")
         ->required();
-    machine->add_flag_callback(
-        "--check", [] {}, "say everything that is wrong, not only the first (the default)");
-    machine->add_flag("--from-grbl", job.machine.from_grbl,
-                      "make a machine file of a text with the answer of grbl, grblHAL or FluidNC to $$");
-    machine->add_option("-o,--output", job.machine.output, "MACHINE.toml, for --from-grbl (default: standard output)");
+    machine->add_flag("--check", job.machine.checks, "say everything that is wrong, not only the first (the default)");
+    machine->add_option("--from", job.machine.from,
+                        machine_source_names() + ": whose file becomes a machine file (default: as its text says)");
+    machine->add_option("-o,--output", job.machine.output,
+                        "MACHINE.toml: the machine file that is made; of --try the program (default: standard output)");
+    machine->add_option("--answers", job.machine.answers,
+                        "A.toml: what that file does not say; without it a terminal is asked");
+    machine->add_option("--try", job.machine.tried,
+                        "AXIS: make a program in G-code that tries accelerations of that axis of the machine file");
+    machine->add_option("--for", job.machine.tried_by,
+                        trial_controllers() + ": whose program --try makes (default grbl)");
     machine->footer("Example: splinefeed machine --check three_axis.toml\n"
-                    "         splinefeed machine --from-grbl settings.txt -o router.toml\n"
+                    "         splinefeed machine printer.cfg -o printer.toml\n"
+                    "         splinefeed machine printer.toml --try x --for klipper -o try_x.gcode\n"
                     "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
 }
 

@@ -25,8 +25,12 @@ struct LinkArguments {
 [[nodiscard]] int report_link(const LinkArguments& arguments);
 
 struct MachineArguments {
-    bool from_grbl = false; ///< make a machine file of what a controller answers to $$
-    std::string output;     ///< for it; empty: standard output
+    bool checks = false; ///< --check was typed
+    std::string from;    ///< the kind of another controller's file; empty: as its text says
+    std::string output;  ///< the machine file that is made of it; empty: standard output
+    std::string answers; ///< file with what it does not say; empty: none
+    std::string tried;   ///< axis of which a program tries accelerations; empty: none
+    std::string tried_by = "grbl";
 };
 
 /// Prints all that is wrong with the file, a line each, or that nothing is; or makes one. Returns the exit status: 0,

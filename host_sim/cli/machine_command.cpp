@@ -5,11 +5,14 @@
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/config/doubtful_numbers.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/convert/limit_trial.hpp"
+#include "host_sim/convert/machine_source.hpp"
 #include "host_sim/planning/machine_limits.hpp"
-#include "host_sim/serve/grbl_machine.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace splinefeed::host {
 
@@ -28,46 +31,83 @@ std::vector<std::string> problems_of(const std::string& text, const std::string&
     return problems;
 }
 
-void write_machine_of_grbl(const std::string& listing, const std::string& output) {
-    const GrblMachine machine = machine_of_grbl(read_text_file(listing, largest_machine_file), listing);
-    if (const std::vector<std::string> problems = problems_of(machine.text, {}); !problems.empty()) {
-        throw InputError(listing, 0, "its numbers are no machine together: {}", problems.front());
+MachineAnswers answers_of(const std::string& file, const MachineArguments& arguments) {
+    if (!arguments.answers.empty()) {
+        return {file, arguments.answers};
     }
-    OutputFile file(output.empty() ? "-" : output);
-    file.append(machine.text);
-    file.commit();
-    if (machine.left_out > 0) {
+    const bool asks = file != "-" && isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
+    return {asks ? AnswerSource::terminal : AnswerSource::nobody, file};
+}
+
+void write_output(const std::string& text, const std::string& file) {
+    OutputFile output(file.empty() ? "-" : file);
+    output.append(text);
+    output.commit();
+}
+
+int convert_machine(const std::string& file, const MachineArguments& arguments) {
+    const std::string text = read_text_file(file, largest_machine_file);
+    const MachineSource& source = machine_source(arguments.from, text, file);
+    MachineAnswers answers = answers_of(file, arguments);
+    const MachineSketch sketch = read_machine(source, text, file, answers);
+    const std::string machine = machine_text(sketch);
+    if (const std::vector<std::string> problems = problems_of(machine, {}); !problems.empty()) {
+        throw InputError(file, 0, "its numbers are no machine together: {}", problems.front());
+    }
+    write_output(machine, arguments.output);
+    for (const std::string& missing : answers.missing()) {
+        tell_note(missing);
+    }
+    for (const std::string& doubt : doubtful_numbers(parse_machine(machine, file))) {
+        tell("{}: warning: {}\n", printable(file), doubt);
+    }
+    if (!sketch.rest.empty()) {
         tell("splinefeed: note: numbers that are no keys of a machine file: {}; they are comments at its end\n",
-             machine.left_out);
+             sketch.rest.size());
     }
+    return 0;
 }
 
 int check_machine(const std::string& file) {
     const std::string text = read_text_file(file, largest_machine_file);
-    const std::vector<std::string> problems = problems_of(text, file);
+    std::vector<std::string> problems = problems_of(text, file);
+    if (const MachineSource* const source = find_machine_source(text); source != nullptr && !problems.empty()) {
+        problems = {fmt::format("{}: it is {}, no machine file; add -o MACHINE.toml, and it becomes one",
+                                printable(file), source->what)};
+    }
     if (!problems.empty()) {
         print_whole(fmt::format("{}\n", fmt::join(problems, "\n")), "the problems");
         return 1;
     }
     const MachineDescription machine = parse_machine(text, file);
-    print_whole(
+    std::string answer =
         fmt::format("{}: nothing is wrong; its axes are {}\n", printable(file),
-                    fmt::join(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes, ", ")),
-        "the answer");
+                    fmt::join(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes, ", "));
+    for (const std::string& doubt : doubtful_numbers(machine)) {
+        answer += fmt::format("{}: warning: {}\n", printable(file), doubt);
+    }
+    print_whole(answer, "the answer");
     return 0;
 }
 
 } // namespace
 
 int run_machine(const std::string& file, const MachineArguments& arguments) {
-    if (!arguments.from_grbl) {
-        if (!arguments.output.empty()) {
-            throw UsageError("-o is of --from-grbl; a check writes no file: leave it out");
+    if (!arguments.tried.empty()) {
+        if (!arguments.from.empty() || !arguments.answers.empty()) {
+            throw UsageError("--try takes a machine file; make that first, without --try");
         }
-        return check_machine(file);
+        write_output(limit_trial(read_machine_file(file), arguments.tried, arguments.tried_by), arguments.output);
+        return 0;
     }
-    write_machine_of_grbl(file, arguments.output);
-    return 0;
+    if (arguments.checks && !arguments.output.empty()) {
+        throw UsageError("--check writes no file: leave -o out, or --check");
+    }
+    const bool converts = !arguments.from.empty() || !arguments.output.empty();
+    if (!converts && !arguments.answers.empty()) {
+        throw UsageError("--answers is for a machine file that is made: add -o MACHINE.toml");
+    }
+    return converts ? convert_machine(file, arguments) : check_machine(file);
 }
 
 } // namespace splinefeed::host

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
+#include "host_sim/config/machine_description.hpp"
 #include "host_sim/output/link_summary.hpp"
 #include "host_sim/output/program_summary.hpp"
 
@@ -56,6 +57,12 @@ struct Summary {
         std::optional<double> jerk;            ///< nothing: the machine file has no jerk limit for the axis
         std::optional<double> jerk_reserved{}; ///< part of that limit that the plan keeps for rounding
     };
+    /// In the machine's coordinates. [mm, degrees]
+    struct AxisPlace {
+        std::string axis;
+        std::optional<Travel> travel_mm; ///< nothing: no limit
+        std::optional<double> zero_mm;   ///< of the program as it begins, without a tool's length; nothing: it has none
+    };
     /// Storage of the stages of the pipeline.
     struct MemoryBytes {
         std::uint64_t curve = 0;
@@ -73,6 +80,7 @@ struct Summary {
     std::string curve;
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file
+    std::vector<AxisPlace> places;           ///< in the same order
     std::optional<double> waypoint_error_mm; ///< nothing: there are no waypoints, or the curve need not pass through
                                              ///< them
     std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; nothing: the run was stopped or steered

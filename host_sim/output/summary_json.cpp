@@ -108,6 +108,21 @@ template <auto member>
 std::optional<std::uint64_t> events_of(const Sum& s) {
     return s.events + s.events_not_reached > 0 ? std::optional(s.*member) : std::nullopt;
 }
+/// Below the names of the axes that have it.
+template <auto member>
+std::optional<Json> places_of(const Sum& s) {
+    Json object = Json::object();
+    for (const Sum::AxisPlace& place : s.places) {
+        if (const auto& value = place.*member) {
+            if constexpr (requires { value->low; }) {
+                object[place.axis] = {value->low, value->high};
+            } else {
+                object[place.axis] = *value;
+            }
+        }
+    }
+    return object.empty() ? std::nullopt : std::optional(std::move(object));
+}
 std::optional<Json> reserves_of(const Sum& s) {
     Json reserves = use_of<&Sum::AxisUse::jerk_reserved>(s);
     return reserves.empty() ? std::nullopt : std::optional(std::move(reserves));
@@ -143,6 +158,11 @@ constexpr WrittenKey<Sum> summary_keys[] = {
     or_null(object<shares_of, share_keys>("limit_share", "Share of the cycle time during which each limit binds.")),
     or_null(objects<helps_of, help_keys>("what_would_help",
                                          "Each limit that bound, planned again, the largest gain first.")),
+    if_any(axes<places_of<&Sum::AxisPlace::zero_mm>>("zero_mm", "Of G-code: where its zero lies on the machine.")),
+    if_any(formed<places_of<&Sum::AxisPlace::travel_mm>>(
+        "travel_mm",
+        R"({"type": "object", "additionalProperties": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}})",
+        "Of axes whose travel is limited: the lowest and the highest position.")),
     if_any(count<moves_of>("what_would_help_moves", "The first moves, which stand for all.")),
     if_any(count<events_of<&Sum::events>>("events", "Of the operator.")),
     if_any(count<events_of<&Sum::events_not_reached>>("events_not_reached", "Events after the end of the run.")),

@@ -8,8 +8,10 @@
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/move_sources.hpp"
 #include "host_sim/run/run_machine.hpp"
+#include "host_sim/run/zero_range.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -53,6 +55,8 @@ public:
 
     [[nodiscard]] const ProgramReport& report() const noexcept { return report_; }
     [[nodiscard]] const ProblemList& problems() const noexcept { return problems_; }
+    /// Moves outside the travel.
+    [[nodiscard]] const ProblemList& outside() const noexcept { return outside_; }
     [[nodiscard]] std::vector<std::string> notes() const {
         if (unread_.lines == 0) {
             return {};
@@ -72,10 +76,10 @@ private:
                 const bool below = box.low[k] < travel->low && !(end > travel->high);
                 const std::string limit = fmt::format("{} the end of its travel at {:.4f} mm",
                                                       below ? "below" : "above", below ? travel->low : travel->high);
-                problems_.add({*file_, step.line,
-                               fmt::format("axis {} goes to {:.4f} mm, {}", machine_->axis_name[k],
-                                           below ? box.low[k] : box.high[k], limit)},
-                              step.line, machine_->axis_name[k] + limit);
+                outside_.add({*file_, step.line,
+                              fmt::format("axis {} goes to {:.4f} mm, {}", machine_->axis_name[k],
+                                          below ? box.low[k] : box.high[k], limit)},
+                             step.line, machine_->axis_name[k] + limit);
             }
         }
     }
@@ -85,15 +89,41 @@ private:
     MotionRecord* record_;
     ProgramReport report_;
     ProblemList problems_;
+    ProblemList outside_;
     UnreadLines unread_{};
 };
 
+/// Where a program leaves the travel, and where its zero has to lie. If nobody has said where that lies, it is one
+/// problem.
+void add_outside(const RunArguments& arguments, const RunMachine& of, const MachineState& begins, const Survey& survey,
+                 ProgramFindings& findings) {
+    const ProblemList& outside = survey.outside();
+    if (outside.empty()) {
+        return;
+    }
+    const std::vector<ZeroRange> ranges = zero_ranges(arguments.path, of, begins);
+    const std::vector<std::string> texts = outside.texts();
+    const bool is_told = !arguments.zero.empty() || begins.offsets != WorkOffsets{};
+    if (leaves(ranges) && can_fit(ranges) && !is_told) {
+        findings.problems.push_back(fmt::format("{}; {}", texts.front(), zero_advice(ranges)));
+        ++findings.problem_count;
+        return;
+    }
+    findings.problems.insert(findings.problems.end(), texts.begin(), texts.end());
+    findings.problem_count += outside.count();
+    if (leaves(ranges)) {
+        findings.notes.push_back(fmt::format("{}: {}", printable(arguments.path.input), zero_advice(ranges)));
+    }
+}
+
 /// The page of a program that cannot be planned: it shows the program, and what is wrong.
 void write_problems(const RunArguments& arguments, const MachineDescription& machine, std::uint32_t segment_ticks,
-                    PathInput& input, const ProgramFindings& findings) {
+                    PathInput& input, const ProgramFindings& findings, std::vector<Summary::AxisPlace> places) {
+    Summary summary;
+    summary.places = std::move(places);
     RunReport page(arguments.outputs.report, machine, segment_ticks);
     Survey(machine, input.name(), &page.record()).read(input);
-    page.write(report_facts(input, {}, fmt::format("{}", fmt::join(findings.problems, "\n"))));
+    page.write(report_facts(input, summary, fmt::format("{}", fmt::join(findings.problems, "\n"))));
 }
 
 } // namespace
@@ -109,7 +139,7 @@ int check_program(const RunArguments& arguments) {
     if (!input.repeatable()) {
         throw UsageError("check reads the program twice; give it a file");
     }
-    MachineState begins = of.state(arguments.state, arguments.position);
+    MachineState begins = of.state(arguments.state, arguments.position, false, arguments.zero);
     of.settle_places(begins, arguments.state);
     input.begin_at(begins);
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
@@ -118,9 +148,10 @@ int check_program(const RunArguments& arguments) {
     ProgramFindings findings{survey.problems().texts(), survey.problems().count(), survey.notes(), input.left_out()};
     const std::vector<std::string> dialect = input.dialect_notes();
     findings.notes.insert(findings.notes.begin(), dialect.begin(), dialect.end());
+    add_outside(arguments, of, begins, survey, findings);
     if (!findings.problems.empty()) {
         if (!arguments.outputs.report.empty()) {
-            write_problems(arguments, of.machine, figures.segment_ticks, input, findings);
+            write_problems(arguments, of.machine, figures.segment_ticks, input, findings, of.places(begins, true));
         }
         print_whole(text(survey.report(), of.machine, findings), "the report");
         return 1;
@@ -141,7 +172,8 @@ int check_program(const RunArguments& arguments) {
     LiveMachine none;
     Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs, none);
     const std::string stopped = motion.run(survey.report().feeds().moves + survey.report().rapids().moves);
-    const Summary summary = motion.summary();
+    Summary summary = motion.summary();
+    summary.places = of.places(begins, true);
     if (page) {
         page->write(report_facts(input, summary, stopped));
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/run/path_watch.hpp"
 
-#include "host_sim/base/input_error.hpp"
-
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -11,9 +9,9 @@ void PathWatch::segment(const CurveSegment<double>& segment, std::uint32_t row, 
     if (observers_.limits != nullptr) {
         if (const auto violation = observers_.limits->violation(segment)) {
             const std::uint64_t line = feeder.line_of_row(row);
-            throw InputError(*file_, line,
-                             line > 0 ? *violation
-                                      : fmt::format("on the way to {}: {}", feeder.name_of_row(row), *violation));
+            throw TravelError(*file_, line,
+                              line > 0 ? *violation
+                                       : fmt::format("on the way to {}: {}", feeder.name_of_row(row), *violation));
         }
     }
     if (observers_.error != nullptr) {

@@ -9,6 +9,7 @@
 #include "host_sim/analysis/program_report.hpp"
 #include "host_sim/analysis/waypoint_error.hpp"
 #include "host_sim/base/background_work.hpp"
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/output/curve_writer.hpp"
 #include "host_sim/output/element_writer.hpp"
 #include "host_sim/planning/path_feeder.hpp"
@@ -28,7 +29,12 @@ struct PathObservers {
     LimitShare* share = nullptr;
 };
 
-/// Refuses a segment that leaves the limits, or cannot be written: InputError, OutputError.
+/// The path leaves the travel of an axis, or what its counter counts.
+struct TravelError : InputError {
+    using InputError::InputError;
+};
+
+/// Refuses a segment that leaves the limits, or cannot be written: TravelError, OutputError.
 class PathWatch final : public CurveWatch {
 public:
     /// `file`: the name of the input for messages. All arguments must outlive it.

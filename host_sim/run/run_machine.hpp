@@ -4,6 +4,7 @@
 
 #include "host_sim/config/machine_choice.hpp"
 #include "host_sim/config/state_file.hpp"
+#include "host_sim/output/summary.hpp"
 #include "host_sim/program/path_input.hpp"
 
 #include <string>
@@ -25,7 +26,11 @@ struct RunMachine {
     /// Where the machine stands as far as it is told, and its offsets. Throws InputError and UsageError.
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
     /// @param homed  it finds its references first: then it stands at 0, whatever the state says
-    [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
+    /// @param zero  "X,Y,Z": the origin of G54, which is active, without G92; empty: as the state says
+    [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false,
+                                     const std::string& zero = {}) const;
+    /// For the summary. @param gcode  the program has a zero
+    [[nodiscard]] std::vector<Summary::AxisPlace> places(const MachineState& begins, bool gcode) const;
     /// Whose state a run with that target keeps. @param target  "modbus", "gpio:///dev/gpiochip0?map=..."
     [[nodiscard]] StateOwner owner(const std::string& target) const {
         return {axes, machine.name, target.substr(0, target.find(':'))};

@@ -20,6 +20,7 @@
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/what_would_help.hpp"
+#include "host_sim/run/zero_range.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -39,14 +40,32 @@ std::optional<std::uint64_t> look(PathInput& input, const PathObservers& observe
     return look_through(input, watch);
 }
 
+/// The same. Where it leaves the travel, and another zero would help, the error says which.
+std::optional<std::uint64_t> look_within(const RunArguments& arguments, const RunMachine& of, PathInput& input,
+                                         const PathLimits& limits, const MachineState& begins) {
+    try {
+        return look(input, {.limits = &limits});
+    } catch (const TravelError& error) {
+        if (input.gcode() == nullptr || !input.reopens()) {
+            throw;
+        }
+        const std::vector<ZeroRange> ranges = zero_ranges(arguments.path, of, begins);
+        if (!leaves(ranges)) {
+            throw;
+        }
+        throw InputError({}, 0, "{}; {}", error.what(), zero_advice(ranges));
+    }
+}
+
 /// What can be found before anything moves. Returns the number of waypoints or moves, if it is known. In the simulated
 /// machine what only the path of a program says is found where it is planned.
-std::optional<std::uint64_t> look_before(PathInput& input, const PathLimits& limits, int axes, bool real) {
+std::optional<std::uint64_t> look_before(const RunArguments& arguments, const RunMachine& of, PathInput& input,
+                                         const PathLimits& limits, const MachineState& begins) {
     std::optional<std::uint64_t> rows;
-    if (input.repeatable() && !real && input.gcode() != nullptr) {
-        rows = look_at_moves(input, limits, axes);
+    if (input.repeatable() && !target_kind(arguments.target).is_real && input.gcode() != nullptr) {
+        rows = look_at_moves(input, limits, of.machine.settings.axes);
     }
-    return input.repeatable() && !rows ? look(input, {.limits = &limits}) : rows;
+    return input.repeatable() && !rows ? look_within(arguments, of, input, limits, begins) : rows;
 }
 
 void warn(const PathInput& input, bool quiet, RunResult* result) {
@@ -89,7 +108,7 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
         if (begins.position_mm != told) {
             input.begin_at(begins);
             if (input.repeatable()) { // it may leave the travel from there
-                static_cast<void>(look(input, {.limits = &limits}));
+                static_cast<void>(look_within(arguments, of, input, limits, begins));
             }
         }
     }
@@ -126,7 +145,7 @@ void note_simulation(const RunArguments& arguments, const MachineDescription& ma
 MotionArguments motion_arguments_of(const RunArguments& arguments, const RunMachine& of) {
     MotionArguments out = arguments.motion;
     out.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
-    out.begins = of.state(arguments.state, arguments.position, arguments.options.orders.home);
+    out.begins = of.state(arguments.state, arguments.position, arguments.options.orders.home, arguments.zero);
     return out;
 }
 
@@ -202,6 +221,9 @@ int run(const RunArguments& arguments) {
     MachineDescription& machine = of.machine;
     PlanFigures figures = plan_figures(arguments.path.scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
+    if (!arguments.zero.empty() && input.gcode() == nullptr) {
+        throw UsageError("--zero is of programs in G-code; other inputs have the machine's coordinates: leave it out");
+    }
     std::optional<StateFile> state_file;
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
         state_file.emplace(arguments.state, of.owner(arguments.target));
@@ -214,7 +236,7 @@ int run(const RunArguments& arguments) {
     warn(input, arguments.motion.quiet, arguments.result);
     const PathLimits path_limits(machine);
     const std::optional<std::uint64_t> waypoints =
-        look_before(input, path_limits, machine.settings.axes, signals.has_value());
+        look_before(arguments, of, input, path_limits, motion_arguments.begins);
     Connected real;
     std::optional<StateKeeper> state;
     if (signals) {
@@ -245,6 +267,7 @@ int run(const RunArguments& arguments) {
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     Summary summary = motion.summary();
+    summary.places = of.places(motion_arguments.begins, input.gcode() != nullptr);
     if (finds_help(arguments, input, summary)) {
         find_help(arguments, of, motion_arguments.begins, motion, waypoints, summary);
     }

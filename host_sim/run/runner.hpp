@@ -34,6 +34,7 @@ struct RunArguments {
     std::string target = "sim";                    ///< only the simulated machine; or "modbus", or an address
     std::string state;                             ///< file of offsets and position; empty: none
     std::string position;                          ///< where the machine stands, "X,Y,Z"; empty: as the state says
+    std::string zero;                              ///< of a program in G-code: where its zero lies; empty: likewise
     RunOptions options;
     OutputNames outputs;
     bool helps = true; ///< the summary says what would help, where the program can be planned again

@@ -83,6 +83,10 @@ constexpr OtherText other_texts[] = {
      [](const std::string& text, RunArguments& out) {
          out.position = text;
      }},
+    {of_programs, "zero",
+     [](const std::string& text, RunArguments& out) {
+         out.zero = text;
+     }},
 };
 
 struct Flag {

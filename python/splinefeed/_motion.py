@@ -257,7 +257,7 @@ def plan(points: npt.ArrayLike, machine: Machine | None = None, curve: str = "g2
 def plan_gcode(program: str | bytes | os.PathLike[str], machine: Machine | None = None, *, tolerance_mm: float | None = None,
                dialect: str | None = None, ignore: str | Sequence[str] | None = None, tools: str | os.PathLike[str] | None = None,
                subprograms: str | None = None, repeat: int | None = None, position: str | Sequence[float] | AnyArray | None = None,
-               state: str | os.PathLike[str] | None = None, increments: bool = False, block_delete: bool = False,
+               zero: str | Sequence[float] | AnyArray | None = None, state: str | os.PathLike[str] | None = None, increments: bool = False, block_delete: bool = False,
                optional_stop: bool = False, scalar: str = "fixed", window: int = 1024, jerk_scalar: str = "double",
                advice: bool = False) -> Motion:
     """Plans a program in G-code.
@@ -271,12 +271,12 @@ def plan_gcode(program: str | bytes | os.PathLike[str], machine: Machine | None 
             folder of the program if that is a file.
         repeat: how often a program runs that M99 ends.
         tools: file of tools. state: file of offsets and of where the machine stands; it is not changed.
-        position: (axes,) [mm]: where the machine stands.
+        position: (axes,) [mm]: where the machine stands. zero: (axes,) [mm]: where the program's zero (G54) lies on it.
         increments, block_delete, optional_stop, scalar, window, jerk_scalar, advice: as plan() and the command's options.
     """
     return _plan_program("gcode", program, machine,
                          options_of(tolerance_mm=tolerance_mm, dialect=dialect, ignore=ignore, tools=tools,
-                                    subprograms=subprograms, repeat=repeat, position=position, state=state,
+                                    subprograms=subprograms, repeat=repeat, position=position, zero=zero, state=state,
                                     increments=increments, block_delete=block_delete, optional_stop=optional_stop,
                                     scalar=scalar, window=window, jerk_scalar=jerk_scalar, advice=advice))
 

@@ -40,6 +40,7 @@ OPTIONS = [
     (splinefeed.plan_gcode, "G1 X10 E1 F3000\nM2\n", {"dialect": "marlin", "ignore": ["E", "unknown"]}, "--dialect marlin --ignore E,unknown"),
     (splinefeed.plan_gcode, "G43 H1\nG1 X10 F3000\nM2\n", {"tools": "t.tbl"}, ""),
     (splinefeed.plan_gcode, CORNERS, {"position": (1, 2, 3)}, ""),
+    (splinefeed.plan_gcode, CORNERS, {"zero": (-1.5, 2, 3)}, ""),
     (splinefeed.plan_gcode, CORNERS, {"state": "s.json"}, ""),
     (splinefeed.plan_gcode, "G91 G1 X1 F3000\nX1 Y1\nM99\n", {"repeat": 3}, ""),
     (splinefeed.plan_gcode, "o<side> call\nM2\n", {"subprograms": "subs"}, ""),

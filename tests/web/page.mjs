@@ -39,7 +39,7 @@ async function opened() {
 
 /** Fills the fields in, plans, and gives what the page says. */
 async function planned(page, file, fields = {}) {
-    for (const name of ["ignore", "tolerance", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3", "machine"]) {
+    for (const name of ["ignore", "tolerance", "zero", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3", "machine"]) {
         await page.fill(`#${name}`, fields[name] ?? "");
     }
     await page.selectOption("#dialect", fields.dialect ?? "auto");

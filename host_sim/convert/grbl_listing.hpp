@@ -2,7 +2,7 @@
 // GrblListing: what a controller of the grbl family answers to $$.
 #pragma once
 
-#include "host_sim/base/toml_checker.hpp"
+#include "host_sim/convert/source_value.hpp"
 
 #include <cstdint>
 #include <map>
@@ -10,12 +10,6 @@
 #include <string_view>
 
 namespace splinefeed::host {
-
-struct GrblSetting {
-    std::int32_t number = 0;
-    std::string value;
-    std::uint64_t line = 0;
-};
 
 /// Lines like `$110=8000.000`, with whatever a terminal writes before them, and a description behind. Other lines are
 /// left out.
@@ -26,25 +20,26 @@ public:
     GrblListing(std::string_view text, const std::string& file);
 
     /// Null: it is not there.
-    [[nodiscard]] const GrblSetting* find(std::int32_t number) const;
-    [[nodiscard]] const std::map<std::int32_t, GrblSetting>& settings() const noexcept { return settings_; }
+    [[nodiscard]] const SourceValue* find(std::int32_t number) const;
+    [[nodiscard]] const std::map<std::int32_t, SourceValue>& settings() const noexcept { return settings_; }
 
     /// The number as a key of a machine file. Throws InputError where it is none, or outside the range of the key.
     /// @param factor  the number is the key's times this
-    [[nodiscard]] double value(const GrblSetting& setting, std::string_view key, const NumberRange& range,
-                               double factor = 1.0) const;
+    [[nodiscard]] double value(const SourceValue& setting, std::string_view key, const NumberRange& range,
+                               double factor = 1.0) const {
+        return in_range(file_, setting, source_number(file_, setting) / factor, key, range);
+    }
     /// From 0 to 255; throws InputError where it is none of these.
-    [[nodiscard]] std::int32_t whole(const GrblSetting& setting) const;
+    [[nodiscard]] std::int32_t whole(const SourceValue& setting) const;
 
 private:
-    void add(const GrblSetting& setting);
-    [[noreturn]] void fail(const GrblSetting& setting, std::string_view why) const;
+    void add(std::int32_t number, const SourceValue& setting);
 
     const std::string& file_;
-    std::map<std::int32_t, GrblSetting> settings_;
+    std::map<std::int32_t, SourceValue> settings_;
 };
 
-/// As a person writes it, with six decimals at most.
-[[nodiscard]] std::string short_number(double value);
+/// Whether a text looks like one.
+[[nodiscard]] bool is_grbl_listing(std::string_view text);
 
 } // namespace splinefeed::host

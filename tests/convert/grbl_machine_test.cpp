@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/serve/grbl_machine.hpp"
+#include "host_sim/convert/grbl_machine.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/run/run_machine.hpp"
@@ -38,27 +38,26 @@ std::string listing(const char* format) {
 } // namespace
 
 TEST_CASE("Listings of $$ become the machine files of grbl_machines.txt, as terminals and senders save them") {
-    const std::string usual = machine_of_grbl(listing("${}={}\n"), "some/router.txt").text;
+    const std::string usual = machine_text(grbl_sketch(listing("${}={}\n"), "some/router.txt"));
     for (const char* const format :
          {"${}={} (rapid, mm/min)\n", "${} = {}; a note\n", ">>> ok\n16:28:30.437 -> ${}={}\t[mm/sec^2]\n",
           " | ${}={} (z-axis, mask:00000100)\n[MSG: $x=3]\n", "${0}={1}\n<Idle|MPos:0,0,0>\n${0}={1}\nok\n"}) {
         CAPTURE(format);
-        const GrblMachine machine = machine_of_grbl(listing(format), "some/router.txt");
-        CHECK(machine.text == usual);
-        CHECK(machine.left_out == 15);
+        const MachineSketch machine = grbl_sketch(listing(format), "some/router.txt");
+        CHECK(machine_text(machine) == usual);
+        CHECK(machine.rest.size() == 15);
     }
     // Axes that turn, machines without limits and numbers that are not known.
     const std::string other =
-        machine_of_grbl("$1=25\n$20=0\n$22=9\n$23=1\n$30=0\n$70=hello\n"
-                        "$100=1\n$110=60\n$120=1\n$130=9\n$103=8.889\n$113=7200\n$123=720\n$133=0\n",
-                        "-")
-            .text;
+        machine_text(grbl_sketch("$1=25\n$20=0\n$22=9\n$23=1\n$30=0\n$70=hello\n"
+                                 "$100=1\n$110=60\n$120=1\n$130=9\n$103=8.889\n$113=7200\n$123=720\n$133=0\n",
+                                 "-"));
     CHECK(machine_problems(other, "m").empty());
-    splinefeed_test::require_golden("host/grbl_machines.txt", usual + "\n" + other);
+    splinefeed_test::require_golden("convert/grbl_machines.txt", usual + "\n" + other);
 }
 
 TEST_CASE("serve answers to $$ with the numbers of the listing") {
-    const std::string text = machine_of_grbl(listing("${}={}\n"), "router.txt").text;
+    const std::string text = machine_text(grbl_sketch(listing("${}={}\n"), "router.txt"));
     const RunMachine machine(parse_machine(text, "router.toml"), true);
     const SwitchFacts switches;
     const ControllerSettings settings = serve_settings(machine, switches);
