@@ -45,8 +45,7 @@ public:
         const std::vector<std::string> names(machine_->axis_name.begin(),
                                              machine_->axis_name.begin() + machine_->settings.axes);
         std::vector<std::string> out;
-        constexpr unsigned codes = (static_cast<unsigned>(host::LimitKind::chord) + 1U) << 3U;
-        for (unsigned code = 0; code < codes; ++code) {
+        for (std::size_t code = 0; code < host::limit_codes; ++code) {
             const host::BindingLimit limit = host::BindingLimit::of(static_cast<std::uint8_t>(code));
             out.push_back(limit.axis < names.size() ? host::limit_name(limit, names) : std::string());
         }
