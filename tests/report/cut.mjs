@@ -29,7 +29,7 @@ export function cut() {
         }
     }
     // What stands over the picture and the strips covers nothing else there.
-    const over = [...document.querySelectorAll(".tools > *, .legend, .caption, .strip-tools, .player > *, header > *")].filter((e) => e.checkVisibility() && e.textContent.trim());
+    const over = [...document.querySelectorAll(".tools > *, .labels > span, .legend, .caption, .strip-tools, .player > *, header > *")].filter((e) => e.checkVisibility() && e.textContent.trim());
     const boxes = over.map((e) => {
         const range = document.createRange();
         range.selectNodeContents(e);

@@ -42,8 +42,6 @@ listing.onPick = (line) => {
 let dark = matchMedia("(prefers-color-scheme: dark)").matches;
 const legend = el("div", { class: "legend" });
 
-space.covers = [legend];
-
 function drawLegend(): void {
     const { quantity, coloured } = space;
     if (quantity === "limit") {
@@ -122,6 +120,8 @@ if (rising.length) {
     tools.append(el("span", { class: "layer-range" }, said, low, high));
     apply();
 }
+
+space.covers = [legend, ...(tools.children as unknown as HTMLElement[])];
 
 const over = choice<Over>("strips over", [["time", "over time"], ["length", "over path length"]], (value) => {
     strips.set(value);
