@@ -1,7 +1,8 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: MIT
 // How long a page of a report takes to open, and to turn: open_page.mjs PAGE_DIRECTORY (which tests/report/bundle.sh has filled) PAGE.html.
-// One line: seconds to the first picture, seconds to all of it, milliseconds a frame while it is turned; each the least of three.
+// One line: seconds to the first picture, seconds to all of it, milliseconds a frame while it is turned, and those from a turn of the wheel over the strips,
+// and over the picture, until it is drawn (the median of 12); each the least of three.
 import { pathToFileURL } from "node:url";
 import { launched, offline } from "../tests/report/browser.mjs";
 
@@ -9,6 +10,23 @@ const [packages, file] = process.argv.slice(2);
 const browser = await launched(packages);
 const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const figures = [];
+
+/** Zooms in, and out again. */
+function wheel(page, selector) {
+    return page.evaluate(async (selector) => {
+        const over = document.querySelector(selector);
+        const box = over.getBoundingClientRect();
+        const times = [];
+        for (let i = 0; i < 12; ++i) {
+            const begin = performance.now();
+            over.dispatchEvent(new WheelEvent("wheel", { deltaY: i < 6 ? -100 : 100, clientX: box.left + box.width / 3, clientY: box.top + box.height / 2, bubbles: true, cancelable: true }));
+            await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+            times.push(performance.now() - begin);
+        }
+        return times.sort((a, b) => a - b)[6];
+    }, selector);
+}
+
 for (let round = 0; round < 3; ++round) {
     const page = await offline(browser);
     const begin = performance.now();
@@ -28,7 +46,10 @@ for (let round = 0; round < 3; ++round) {
         await page.mouse.move(box.x + box.width / 2 + 5 * i, box.y + box.height / 2 + 2 * i);
         await page.evaluate(() => new Promise(requestAnimationFrame));
     }
-    figures.push([(first - begin) / 1000, (all - begin) / 1000, (performance.now() - turns) / frames]);
+    const turning = (performance.now() - turns) / frames;
+    await page.mouse.up();
+    await page.waitForSelector('.space[data-drawn="all"]');
+    figures.push([(first - begin) / 1000, (all - begin) / 1000, turning, await wheel(page, ".u-over"), await wheel(page, ".space canvas")]);
     await page.context().close();
 }
 await browser.close();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What a report costs: bench/report.py BUILD_DIRECTORY [BLOCKS]: for some programs the time of planning, the time that the report adds, and the size of its
-page; with chromium and the packages of the test report_bundle also the time until the page's first picture and until all of it, and of a frame while it turns."""
+page; with chromium and the packages of the test report_bundle also the time until the page's first picture and until all of it, of a frame while it turns, and from a turn of the wheel to its frame, over the strips and over the picture."""
 import json
 import pathlib
 import subprocess
@@ -29,8 +29,8 @@ def opened(packages, page):
     out = subprocess.run([ROOT / "bench" / "open_page.mjs", packages, page], capture_output=True, check=False, text=True)
     if out.returncode == 77:
         return "  " + out.stdout.strip()
-    first, whole, frame = map(float, out.stdout.split())
-    return f"{first:>9.2f} s{whole:>7.2f} s{frame:>7.0f} ms"
+    first, whole, frame, strips, picture = map(float, out.stdout.split())
+    return f"{first:>9.2f} s{whole:>7.2f} s{frame:>7.0f} ms{strips:>10.0f} ms{picture:>8.0f} ms"
 
 
 def main():
@@ -41,7 +41,7 @@ def main():
         with open(rings, "w", encoding="ascii") as file:
             subprocess.run([ROOT / "bench" / "slicer.py", blocks], stdout=file, check=True)
         page = pathlib.Path(folder, "page.html")
-        print(f"{'program':<16}{'motion':>12}{'planning':>12}{'run':>12}{'report adds':>13}{'page':>12}{'memory':>12}{'picture':>11}{'all':>9}{'turns':>10}")
+        print(f"{'program':<16}{'motion':>12}{'planning':>12}{'run':>12}{'report adds':>13}{'page':>12}{'memory':>12}{'picture':>11}{'all':>9}{'turns':>10}{'wheel: strips':>13}{'picture':>11}")
         for program, machine, *more in (
             (EXAMPLES / "path61.csv", THREE),
             (EXAMPLES / "bracket.ngc", THREE),

@@ -2,13 +2,26 @@
 // limit_kind: the limits that can bind a motion, and their names in reports.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
 namespace splinefeed::host {
 
-enum class LimitKind : std::uint8_t { none, feed, machine_feed, velocity, acceleration, jerk, centripetal, chord };
+enum class LimitKind : std::uint8_t {
+    none,
+    feed,
+    machine_feed,
+    velocity,
+    acceleration,
+    jerk,
+    centripetal,
+    chord,
+    override_feed, ///< the feed as the operator changed it
+    hold,          ///< the operator brakes the machine, or keeps it at rest
+    dwell,         ///< the program keeps it at rest
+};
 
 /// A limit; `axis` is meaningful for velocity, acceleration and jerk.
 struct BindingLimit {
@@ -24,6 +37,9 @@ struct BindingLimit {
     }
     friend constexpr bool operator==(const BindingLimit&, const BindingLimit&) = default;
 };
+
+/// Codes of all limits are below it.
+inline constexpr std::size_t limit_codes = (static_cast<std::size_t>(LimitKind::dwell) + 1) << 3U;
 
 /// "acceleration of x", "programmed feed". @param axes  names
 [[nodiscard]] std::string limit_name(BindingLimit limit, std::span<const std::string> axes);

@@ -20,14 +20,14 @@ LimitShare::LimitShare(const MachineSettings& machine) : machine_(machine), axes
     }
 }
 
-void LimitShare::programmed(std::uint32_t waypoint, double feed_mm_s) {
+void LimitShare::programmed(std::uint32_t waypoint, double feed_mm_s, bool rapid) {
     const double feed = feed_mm_s > 0.0 ? std::min(feed_mm_s, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
     if (feeds_.empty() || feeds_.back().waypoint != waypoint) {
-        feeds_.push_back({waypoint, feed});
+        feeds_.push_back({waypoint, feed, rapid});
     }
 }
 
-void LimitShare::segment(const FeedSegment& segment) {
+void LimitShare::segment(const FeedSegment& segment, const Steered& steered) {
     while (feeds_.size() > 1 && feeds_.front().waypoint != segment.waypoint) {
         feeds_.pop_front();
     }
@@ -77,17 +77,27 @@ void LimitShare::segment(const FeedSegment& segment) {
         power += velocity * acceleration;
     }
     const bool turns = !(linear_sq > 0.0) && feed_mm_s() == machine_.max_feed_mm_s;
-    const double feed = turns ? max_turning_deg_s(machine_) : feed_mm_s();
-    bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed,
-                        {feed < machine_.max_feed_mm_s ? LimitKind::feed : LimitKind::machine_feed});
-    if (bound_.feed && feed < machine_.max_feed_mm_s) {
-        programmed_ += ticks;
+    const bool steers = steered.override_feed != 1.0 && !turns && (feeds_.empty() || !feeds_.front().rapid);
+    const double asked = turns ? max_turning_deg_s(machine_) : feed_mm_s() * (steers ? steered.override_feed : 1.0);
+    const double feed = turns ? asked : std::min(asked, machine_.max_feed_mm_s);
+    const LimitKind kind = !(feed < machine_.max_feed_mm_s) ? LimitKind::machine_feed
+                           : steers                         ? LimitKind::override_feed
+                                                            : LimitKind::feed;
+    bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed, {kind});
+    if (bound_.feed && kind != LimitKind::machine_feed) {
+        (steers ? override_ : programmed_) += ticks;
     }
     if (machine_.centripetal_mm_s2 > 0.0 || chord_mm_s2_ > 0.0) {
         const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;
         const double across = std::sqrt(std::max(across_sq, 0.0));
         bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2, {LimitKind::centripetal});
         bound_.acceleration |= count(chord_, across, chord_mm_s2_, {LimitKind::chord});
+    }
+    if (steered.standstill != LimitKind::none) {
+        (steered.standstill == LimitKind::hold ? hold_ : dwell_) += ticks;
+        most_ = {steered.standstill};
+        most_used_ = 1.0;
+        bound = true;
     }
     none_ += bound ? 0U : ticks;
     total_ += ticks;
@@ -109,6 +119,9 @@ LimitShares LimitShare::shares() const {
     shares.centripetal = machine_.centripetal_mm_s2 > 0.0 ? std::optional(share(centripetal_)) : std::nullopt;
     shares.chord = chord_mm_s2_ > 0.0 ? std::optional(share(chord_)) : std::nullopt;
     shares.none = share(none_);
+    shares.override_feed = share(override_);
+    shares.hold = share(hold_);
+    shares.dwell = share(dwell_);
     return shares;
 }
 

@@ -15,8 +15,8 @@
 namespace splinefeed::host {
 
 /// Shares of the time, 0 to 1. Several limits may bind at the same time (an axis and the feed on a straight line), so
-/// the sum may exceed 1. `none` is the share in which no limit binds: at standstill, and where the plan stays below all
-/// limits.
+/// the sum may exceed 1. `none` is the share in which no limit binds: where the plan stays below all limits, and where
+/// the machine stands for nobody.
 struct LimitShares {
     struct Axis {
         double velocity = 0.0;
@@ -29,6 +29,15 @@ struct LimitShares {
     std::optional<double> centripetal;
     std::optional<double> chord;
     double none = 0.0;
+    double override_feed = 0.0; ///< the part of `feed` in which the operator's override was the limit
+    double hold = 0.0;          ///< the operator brakes the machine, or keeps it at rest
+    double dwell = 0.0;         ///< the program keeps it at rest
+};
+
+/// What the operator and the program ask for on top of the moves.
+struct Steered {
+    double override_feed = 1.0;             ///< factor of the feeds, not of rapids
+    LimitKind standstill = LimitKind::none; ///< hold: the machine brakes for it or stands; dwell
 };
 
 /// Which kinds of limits bound a segment.
@@ -50,9 +59,9 @@ public:
 
     /// The programmed feed on the way to a waypoint; 0: the machine's feed. Call it in the order of travel, before the
     /// segments that lead there.
-    void programmed(std::uint32_t waypoint, double feed_mm_s);
+    void programmed(std::uint32_t waypoint, double feed_mm_s, bool rapid = false);
 
-    void segment(const FeedSegment& segment);
+    void segment(const FeedSegment& segment, const Steered& steered = {});
 
     /// Of the last segment.
     [[nodiscard]] const BoundLimits& bound() const noexcept { return bound_; }
@@ -74,6 +83,7 @@ private:
     struct Feed {
         std::uint32_t waypoint;
         double mm_s;
+        bool rapid;
     };
 
     MachineSettings machine_;
@@ -86,6 +96,9 @@ private:
     double most_used_ = 0.0;
     std::uint64_t feed_ = 0;
     std::uint64_t programmed_ = 0;
+    std::uint64_t override_ = 0;
+    std::uint64_t hold_ = 0;
+    std::uint64_t dwell_ = 0;
     std::uint64_t centripetal_ = 0;
     std::uint64_t chord_ = 0;
     std::uint64_t none_ = 0;

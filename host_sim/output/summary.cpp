@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -41,11 +42,19 @@ std::string share_table(const std::vector<std::string>& names, const LimitShares
         fmt::format_to(out, "{:<22}{:>14}\n", label, in_tenths(share));
     };
     row("  path feed", shares.feed);
-    if (shares.centripetal) {
-        row("  centripetal", *shares.centripetal);
+    const std::pair<const char*, std::optional<double>> others[] = {{"  centripetal", shares.centripetal},
+                                                                    {"  chord error", shares.chord}};
+    const std::pair<const char*, double> asked[] = {
+        {"  with an override", shares.override_feed}, {"  hold", shares.hold}, {"  dwell", shares.dwell}};
+    for (const auto& [label, share] : asked) {
+        if (share > 0.0) {
+            row(label, share);
+        }
     }
-    if (shares.chord) {
-        row("  chord error", *shares.chord);
+    for (const auto& [label, share] : others) {
+        if (share) {
+            row(label, *share);
+        }
     }
     row("  no limit", shares.none);
     return text;

@@ -46,8 +46,12 @@ constexpr WrittenKey<Sum> share_keys[] = {
     axes<share_of<&LimitShares::Axis::acceleration>>("acceleration", "Of each axis."),
     axes<share_of<&LimitShares::Axis::jerk>>("jerk", "Of axes with a jerk limit."),
     quantity<path_share<&LimitShares::feed>>("feed", "", "The feed of the waypoint, else the machine's."),
+    quantity<path_share<&LimitShares::programmed_feed>>("programmed_feed", "", "Of that the program's, as it is."),
+    quantity<path_share<&LimitShares::override_feed>>("override", "", "Of that the feed that an override changed."),
     quantity<path_share<&LimitShares::centripetal>>("centripetal", "", "The acceleration across the path."),
     quantity<path_share<&LimitShares::chord>>("chord", "", "The chord error."),
+    quantity<path_share<&LimitShares::hold>>("hold", "", "The operator brakes the machine, or keeps it at rest."),
+    quantity<path_share<&LimitShares::dwell>>("dwell", "", "The program keeps it at rest."),
     quantity<path_share<&LimitShares::none>>("none", "", "No limit."),
 };
 
@@ -129,7 +133,7 @@ std::optional<Json> reserves_of(const Sum& s) {
 }
 constexpr WrittenKey<Sum> summary_keys[] = {
     quantity<&Sum::cycle_time_s>("cycle_time_s", "s", "Duration of the motion."),
-    quantity<&Sum::length_mm>("length_mm", "mm", "Length of the path."),
+    quantity<&Sum::length_mm>("length_mm", "mm", "Length of the path, along the linear axes."),
     count<&Sum::waypoints>("waypoints", "Points or moves of the input."),
     count<&Sum::curve_segments>("curve_segments", "Bezier segments."),
     count<&Sum::feed_segments>("feed_segments", "Segments of the output."),

@@ -17,14 +17,29 @@ constexpr double least_share = 0.7; // of the time, that is spent on levels
 
 } // namespace
 
-void LineTimes::add(std::uint64_t line, double start_s, double seconds, std::uint8_t code) {
+// Null: it is not kept.
+LineTimes::Line* LineTimes::at(std::uint64_t line) {
     if (line == 0 || line > most_lines) {
-        return;
+        return nullptr;
     }
     if (lines_.size() <= line) {
         lines_.resize(line + 1);
     }
-    Line& of = lines_[line];
+    return &lines_[line];
+}
+
+void LineTimes::programmed(std::uint64_t line, double way_mm) {
+    if (Line* const of = at(line)) {
+        of->way_mm += static_cast<float>(way_mm);
+    }
+}
+
+void LineTimes::add(std::uint64_t line, double start_s, double seconds, std::uint8_t code) {
+    Line* const found = at(line);
+    if (found == nullptr) {
+        return;
+    }
+    Line& of = *found;
     const auto time = static_cast<float>(seconds);
     if (of.start_s < 0.0) {
         of.start_s = start_s;

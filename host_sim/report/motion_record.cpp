@@ -16,6 +16,7 @@ namespace {
 
 constexpr double longest_piece_s = 0.004; // of a segment, without a point of the path inside
 constexpr double per_s = ticks_per_us * 1e6;
+constexpr std::size_t most_passed = 65536; // segments of a chain
 
 double inverse(double limit) {
     return limit > 0.0 ? 1.0 / limit : 1.0;
@@ -40,7 +41,8 @@ int height_axis(const MachineDescription& machine) {
 MotionRecord::MotionRecord(const MachineDescription& machine, std::uint32_t segment_ticks)
     : machine_(&machine), axes_(machine.settings.axes), height_(height_axis(machine)),
       values_(1 + 3 * static_cast<std::size_t>(axes_)), strips_(values_.size(), segment_ticks),
-      path_(machine.settings.axes, most_points), programmed_(machine.settings.axes, most_programmed) {
+      path_(machine.settings.axes, most_points), programmed_(machine.settings.axes, most_programmed),
+      linear_(machine.settings) {
     for (const unsigned k : indices(axes_)) {
         const AxisSettings& axis = machine.settings.axis[k];
         factors_[k] = {1.0 / (static_cast<double>(units_per_count) * axis.steps_per_mm),
@@ -66,7 +68,7 @@ void MotionRecord::stop() {
 }
 
 void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64_t line) {
-    rows_.push_back({line, rapid, move.mode == PathMode::exact_stop, move.stop_at_end});
+    const double begin_mm = programmed_mm_;
     ThinnedPath::Point point{.line = line,
                              .kind = static_cast<std::uint8_t>(rapid ? PieceKind::rapid : PieceKind::feed)};
     const PathStrand strand(here_, move, axes_);
@@ -80,6 +82,9 @@ void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64
         before = point.position;
         programmed_.add(point);
     }
+    const double length_mm = programmed_mm_ - begin_mm;
+    rows_.push_back({line, length_mm, rapid, move.mode == PathMode::exact_stop, move.stop_at_end});
+    lines_.programmed(line, length_mm);
     here_ = move.to;
 }
 
@@ -113,14 +118,31 @@ void MotionRecord::happened(const ProgramSummary::Event& event, EventKind kind) 
     }
 }
 
-void MotionRecord::come_to(std::uint64_t row, std::uint64_t line, bool is_move) {
-    while (!rows_.empty() && first_row_ < row) {
-        rows_.pop_front();
-        ++first_row_;
+void MotionRecord::pop_row() {
+    rows_.pop_front();
+    ++first_row_;
+}
+
+void MotionRecord::come_to(std::uint64_t row, std::uint64_t line, std::optional<std::uint64_t> move) {
+    settle_chain();
+    now_ = {};
+    if (move) {
+        if (at_row_ && first_row_ < *move) {
+            pop_row();
+        }
+        for (; !rows_.empty() && first_row_ < *move; pop_row()) {
+            if (rows_.front().line > 0) {
+                chain_.push_back(rows_.front());
+            }
+        }
+        at_row_ = !rows_.empty();
+        now_ = at_row_ ? rows_.front() : Row{};
     }
-    now_ = is_move && !rows_.empty() && first_row_ == row ? rows_.front() : Row{};
     now_.line = line;
     row_ = row;
+    if (!chain_.empty()) {
+        chain_.push_back(now_);
+    }
 }
 
 PerAxis<double> MotionRecord::place(const FeedSegment& segment, double u) const {
@@ -191,7 +213,15 @@ void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) 
     }
     const double way_mm = std::sqrt(way_sq);
     strips_.add(ticks_, seconds, values_.data(), length_mm_, share.feed_mm_s(), code);
-    lines_.add(now_.line, begin_s, seconds, code);
+    if (chain_.empty()) {
+        lines_.add(now_.line, begin_s, seconds, code);
+    } else if (passed_.size() < most_passed) {
+        chain_begin_s_ = passed_.empty() ? begin_s : chain_begin_s_;
+        passed_.push_back({seconds, way_mm, code});
+    } else {
+        passed_.back().seconds += seconds;
+        passed_.back().way_mm += way_mm;
+    }
     tools_[tool_] += seconds;
     if (!has_last_) {
         last_ = {.position = place(segment, 0.0), .line = now_.line, .keep = true};
@@ -217,6 +247,41 @@ void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) 
             stops_.push_back({last_.time_s, 0.0, row_, now_.line, 0.0, why, last_.position});
         }
     }
+}
+
+// Each line of the chain gets the time in which a part of the way is travelled that is as large as its part of the
+// length.
+void MotionRecord::settle_chain() {
+    double way_mm = 0.0;
+    double length_mm = 0.0;
+    for (const Passed& part : passed_) {
+        way_mm += part.way_mm;
+    }
+    for (const Row& row : chain_) {
+        length_mm += row.length_mm;
+    }
+    const double scale = way_mm > 0.0 ? length_mm / way_mm : 0.0;
+    double at_s = chain_begin_s_;
+    double done_mm = 0.0; // of the line
+    std::size_t i = 0;
+    for (const Passed& part : passed_) {
+        double left_s = part.seconds;
+        for (double left_mm = part.way_mm * scale;; ++i) {
+            const bool ends = i + 1 < chain_.size() && done_mm + left_mm > chain_[i].length_mm;
+            const double here_mm = ends ? chain_[i].length_mm - done_mm : left_mm;
+            const double here_s = ends ? left_s * here_mm / left_mm : left_s;
+            lines_.add(chain_[i].line, at_s, here_s, part.code);
+            at_s += here_s;
+            left_s -= here_s;
+            left_mm -= here_mm;
+            done_mm = ends ? 0.0 : done_mm + here_mm;
+            if (!ends) {
+                break;
+            }
+        }
+    }
+    passed_.clear();
+    chain_.clear();
 }
 
 void MotionRecord::stand(double begin_s, double seconds) {
@@ -251,11 +316,9 @@ void MotionRecord::travel(const FeedSegment& segment, double begin_s, double sec
     waits_ = Why::end;
     Total& total = totals_[static_cast<std::size_t>(kind)];
     total.seconds += seconds;
-    total.length_mm += way_mm;
+    const double linear_mm = linear_.of(segment);
+    total.length_mm += linear_mm;
     total.max_speed_mm_s = std::max(total.max_speed_mm_s, static_cast<double>(values_[0].high));
-    if (kind == PieceKind::feed) {
-        bound_s_[code] += seconds;
-    }
     if (kind == PieceKind::feed && height_ >= 0) {
         const auto k = static_cast<unsigned>(height_);
         const auto height = [&](std::int64_t units) {
@@ -268,7 +331,7 @@ void MotionRecord::travel(const FeedSegment& segment, double begin_s, double sec
         path_.add(last_);
         const double u = static_cast<double>(i) / parts;
         last_ = {.time_s = begin_s + u * seconds,
-                 .length_mm = length_mm_ + u * way_mm,
+                 .length_mm = way_mm_ + u * way_mm,
                  .position = place(segment, u),
                  .line = now_.line,
                  .row = row_,
@@ -280,7 +343,8 @@ void MotionRecord::travel(const FeedSegment& segment, double begin_s, double sec
                  .acceleration = acceleration_,
                  .jerk = jerk_};
     }
-    length_mm_ += way_mm;
+    way_mm_ += way_mm;
+    length_mm_ += linear_mm;
 }
 
 // The machine goes on from the last stop.
@@ -299,6 +363,7 @@ void MotionRecord::turn(const PerAxis<double>& direction) {
 }
 
 void MotionRecord::finish() {
+    settle_chain();
     if (has_last_) {
         last_.keep = true;
         path_.add(last_);

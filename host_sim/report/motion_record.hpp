@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
+#include "host_sim/analysis/linear_length.hpp"
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/report/line_times.hpp"
@@ -16,6 +17,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <optional>
 
 namespace splinefeed::host {
 
@@ -68,12 +70,14 @@ public:
     /// How far the path is from the program somewhere on the way to a row.
     void deviates(std::uint64_t row, double mm);
 
-    /// The segments from now on lead to this row. @param line  of the row; 0: unknown   @param is_move  rows are the
-    /// moves that were told, in their order
-    void come_to(std::uint64_t row, std::uint64_t line, bool is_move);
+    /// The segments from now on lead to this row. @param line  of the row; 0: unknown   @param move  the row is the end
+    /// of that move, from 0. Moves before it that no row has named are passed on the way there: the lines of all of
+    /// them share the way by their length.
+    void come_to(std::uint64_t row, std::uint64_t line, std::optional<std::uint64_t> move);
     /// Why the machine stands in the segments from now on, until it moves.
     void waits(Why why) noexcept { waits_ = why; }
-    void dwells(std::uint64_t line) noexcept {
+    void dwells(std::uint64_t line) {
+        settle_chain();
         waits_ = Why::program;
         now_.line = line;
     }
@@ -101,9 +105,8 @@ public:
     [[nodiscard]] std::uint64_t stop_count() const noexcept { return stop_count_; }
     [[nodiscard]] const std::vector<Operated>& operated() const noexcept { return operated_; }
     [[nodiscard]] const std::array<Total, 4>& totals() const noexcept { return totals_; }
+    /// Along the linear axes; so are those of the totals and the strips.
     [[nodiscard]] double length_mm() const noexcept { return length_mm_; }
-    /// By the code of a limit: time of feeds in which it was the one that was used most.
-    [[nodiscard]] const std::array<double, 64>& bound_s() const noexcept { return bound_s_; }
     /// Time by the number of the tool; 0: before the first one.
     [[nodiscard]] const std::map<std::int32_t, double>& tools() const noexcept { return tools_; }
     /// The first most_events of the program.
@@ -115,9 +118,15 @@ public:
 private:
     struct Row {
         std::uint64_t line = 0;
+        double length_mm = 0.0; ///< over all axes
         bool rapid = false;
         bool exact_stop = false;
         bool stop_at_end = false;
+    };
+    struct Passed {
+        double seconds = 0.0;
+        double way_mm = 0.0;
+        std::uint8_t code = 0;
     };
     struct AxisFactors {
         double mm_per_unit = 0.0;
@@ -128,7 +137,9 @@ private:
         bool linear = true;
     };
 
+    void pop_row();
     void measure(const FeedSegment& segment, double seconds);
+    void settle_chain();
     void stand(double begin_s, double seconds);
     void travel(const FeedSegment& segment, double begin_s, double seconds, double way_mm, const LimitShare& share);
     void turn(const PerAxis<double>& direction);
@@ -154,7 +165,6 @@ private:
     std::uint64_t stop_count_ = 0;
     std::vector<Operated> operated_;
     std::array<Total, 4> totals_{};
-    std::array<double, 64> bound_s_{};
     std::map<std::int32_t, double> tools_;
     std::int32_t tool_ = 0;
     std::vector<ProgramSummary::Event> events_;
@@ -165,11 +175,17 @@ private:
     std::deque<Row> rows_; // moves from first_row_ on
     std::uint64_t first_row_ = 0;
     std::uint64_t row_ = 0;
+    bool at_row_ = false; // the first of rows_ has been come to
     Row now_{};
+    std::vector<Row> chain_;     // now_ and the moves before it that are travelled with it; none: it is alone
+    std::vector<Passed> passed_; // of the chain, so far
+    double chain_begin_s_ = 0.0;
     Why waits_ = Why::end;
     bool approaches_ = false;
     std::uint64_t ticks_ = 0;
+    LinearLength linear_;
     double length_mm_ = 0.0;
+    double way_mm_ = 0.0;       // travelled over all axes
     ThinnedPath::Point last_{}; // waits for what comes behind it
     bool has_last_ = false;
     bool stood_ = false;

@@ -16,9 +16,12 @@ struct ProgramText {
     std::uint64_t head_lines = 0;                ///< so many
     std::uint64_t lines = 0;                     ///< of the whole file
     std::map<std::uint64_t, std::string> picked; ///< lines behind them that were asked for
+    std::vector<float> extruded;                 ///< [mm of filament] by the number of the line; none: nothing is
 };
 
 /// Reads the file once more. A file that cannot be read gives an empty text. @param picked  numbers of lines, from 1
-[[nodiscard]] ProgramText read_program_text(const std::string& path, const std::vector<std::uint64_t>& picked);
+/// @param lines  that may extrude: those below this number
+[[nodiscard]] ProgramText read_program_text(const std::string& path, const std::vector<std::uint64_t>& picked,
+                                            std::size_t lines = 0);
 
 } // namespace splinefeed::host

@@ -183,11 +183,6 @@ Json strips_json(const MotionRecord& record) {
 Json limits_json(const MotionRecord& record) {
     const std::vector<std::string> names = axis_names(record.machine());
     std::set<std::uint8_t> codes{0};
-    for (std::size_t code = 0; code < record.bound_s().size(); ++code) {
-        if (record.bound_s()[code] > 0.0) {
-            codes.insert(static_cast<std::uint8_t>(code));
-        }
-    }
     for (const TimeStrips::Bin& bin : record.strips().bins()) {
         codes.insert(bin.code);
     }
@@ -199,8 +194,7 @@ Json limits_json(const MotionRecord& record) {
     }
     Json out = Json::object();
     for (const std::uint8_t code : codes) {
-        out[std::to_string(code)] = {{"name", limit_name(BindingLimit::of(code), names)},
-                                     {"feed_s", record.bound_s()[code]}};
+        out[std::to_string(code)] = {{"name", limit_name(BindingLimit::of(code), names)}};
     }
     return out;
 }
@@ -246,8 +240,14 @@ Json operated_json(const MotionRecord& record) {
 Json lines_json(const MotionRecord& record, const ReportFacts& facts) {
     using Line = LineTimes::Line;
     const std::vector<std::uint64_t> slowest = record.lines().slowest(most_costly);
-    const ProgramText text = facts.text_file.empty() ? ProgramText{} : read_program_text(facts.text_file, slowest);
     std::vector<Line> lines = record.lines().lines();
+    const ProgramText text =
+        facts.text_file.empty() ? ProgramText{} : read_program_text(facts.text_file, slowest, lines.size());
+    std::vector<double> beads; // filament by way
+    for (std::size_t i = 0; i < text.extruded.size(); ++i) {
+        const double way_mm = static_cast<double>(lines[i].way_mm);
+        beads.push_back(way_mm > 0.0 ? static_cast<double>(text.extruded[i]) / way_mm : 0.0);
+    }
     Json picked = Json::object();
     for (const auto& [number, line] : text.picked) {
         picked[std::to_string(number)] = line;
@@ -270,7 +270,10 @@ Json lines_json(const MotionRecord& record, const ReportFacts& facts) {
             {"time_unit", finest_time_s},
             {"start", column(lines, finest_time_s, [](const Line& line) { return line.start_s; })},
             {"seconds", column(lines, finest_time_s, [](const Line& line) { return line.seconds; })},
-            {"limit", column(lines, 1.0, [](const Line& line) { return static_cast<double>(line.code); })}};
+            {"limit", column(lines, 1.0, [](const Line& line) { return static_cast<double>(line.code); })},
+            {"bead_count", beads.size()},
+            {"bead_unit", finest_share},
+            {"bead", column(beads, finest_share, [](double bead) { return std::min(bead, 100.0); })}};
 }
 
 Json totals_json(const MotionRecord& record) {

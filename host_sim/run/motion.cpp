@@ -4,7 +4,6 @@
 #include "host_sim/base/input_error.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace splinefeed::host {
@@ -23,7 +22,8 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
       live_(&live), deviation_(description.settings, input.tolerances().joint_mm,
                                input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
-      share_(description.settings), program_(outputs.elements(), arguments.report, arguments.record),
+      share_(description.settings), length_(description.settings),
+      program_(outputs.elements(), arguments.report, arguments.record),
       work_(asked_.measures && !live.is_real() && arguments.record == nullptr && input.within_tolerance()),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
@@ -67,7 +67,7 @@ void Motion::execute_all() {
             if (asked_.record != nullptr) {
                 asked_.record->dwells(steps_.line());
             }
-            if (!execute_first(segment)) {
+            if (!execute_first(segment, LimitKind::dwell)) {
                 break;
             }
             if (asked_.report != nullptr) {
@@ -98,24 +98,6 @@ void Motion::execute_all() {
             break;
         }
     }
-}
-
-// Of a real machine what it has done, not what is planned.
-void Motion::show_progress() {
-    if (!progress_ || !progress_->due()) {
-        return;
-    }
-    if (!live_->is_real()) {
-        progress_->show({line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s()});
-        return;
-    }
-    const LiveMachine::Reached reached = live_->reached();
-    std::string place;
-    for (const RunTarget::AxisPlace& at : live_->places()) {
-        place += at.known() ? fmt::format(" {}={:.3f}", description_->axis_name[at.axis], *at.known()) : std::string();
-    }
-    const double segment_s = figures_->segment_ticks / (ticks_per_us * 1e6);
-    progress_->show({reached.moves, reached.line, static_cast<double>(live_->executed()) * segment_s, true, place});
 }
 
 // The input pauses: a machine that moves cannot wait, and goes on along what is known; behind a while the last move
@@ -168,7 +150,10 @@ void Motion::operate() {
         case Operation::hold: stream_.hold(); break;
         case Operation::resume: stream_.resume(); break;
         case Operation::abort: stream_.abort(); break;
-        case Operation::override_feed: stream_.override_feed(Fixed::from_double(events_[operated_].value)); break;
+        case Operation::override_feed:
+            steered_.override_feed = events_[operated_].value;
+            stream_.override_feed(Fixed::from_double(events_[operated_].value));
+            break;
         }
     }
 }
@@ -246,7 +231,10 @@ void Motion::pass(std::uint32_t row) {
     passed_ = feeder_.whole_row(row) + 1;
     const std::uint64_t line = feeder_.line_of_row(row);
     if (asked_.record != nullptr) {
-        asked_.record->come_to(passed_ - 1, input_->segments() == nullptr ? line : passed_, input_->gcode() != nullptr);
+        const std::uint64_t moves = passed_ - (input_->lines_within_tolerance() ? 1U : 0U); // that end there
+        const bool is_move = input_->within_tolerance() && moves > 0;
+        asked_.record->come_to(passed_ - 1, input_->segments() == nullptr ? line : passed_,
+                               is_move ? std::optional(moves - 1) : std::nullopt);
     }
     come_to(line);
 }
@@ -287,9 +275,9 @@ void Motion::read() {
 }
 
 // Executes a segment; before the first one the machine comes to where it begins.
-bool Motion::execute_first(FeedSegment& segment) {
+bool Motion::execute_first(FeedSegment& segment, LimitKind standstill) {
     if (segments_ > 0 || asked_.start == nullptr) {
-        return execute(segment);
+        return execute(segment, standstill);
     }
     PerAxis<double> to{};
     for (const unsigned k : indices(figures_->axes)) {
@@ -297,7 +285,7 @@ bool Motion::execute_first(FeedSegment& segment) {
                 description_->settings.axis[k].steps_per_mm;
     }
     const auto from = asked_.start->move_from(to);
-    return (!from || move_to(segment, *from, to)) && execute(segment);
+    return (!from || move_to(segment, *from, to)) && execute(segment, standstill);
 }
 
 // A straight line at the machine's limits, before the path. False: it was held, or the run is over.
@@ -330,10 +318,11 @@ bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerA
     }
     first.start = segments_ > 0 ? segment.end : first.start; // to the last digit
     rests_ = 0;                                              // those of the path count
+    at_end_ = false;
     return true;
 }
 
-bool Motion::execute(FeedSegment& segment) {
+bool Motion::execute(FeedSegment& segment, LimitKind standstill) {
     segment.index = segments_; // standstill before the first move is none of the trajectory's
     try {
         outputs_->segment(segment);
@@ -343,12 +332,17 @@ bool Motion::execute(FeedSegment& segment) {
     const bool begins_at_rest = segment.start_velocity == PerAxis<std::int64_t>{};
     const bool rest = stream_.activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
     rests_ += rest ? 1U : 0U;
+    at_end_ = rest || (begins_at_rest && segment.ends_at_rest() && at_end_);
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
     if (!done) {
         return false;
     }
-    share_.segment(segment);
+    steered_.standstill = held_ == Held::no && stream_.activity() == Activity::running ? standstill : LimitKind::hold;
+    share_.segment(segment, steered_);
+    if (!way_) {
+        length_.add(segment);
+    }
     if (asked_.record != nullptr) {
         asked_.record->segment(segment, share_);
     }

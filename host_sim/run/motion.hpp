@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/analysis/exact_stop_time.hpp"
+#include "host_sim/analysis/linear_length.hpp"
 #include "host_sim/analysis/program_report.hpp"
 #include "host_sim/live/live_machine.hpp"
 #include "host_sim/output/outputs.hpp"
@@ -89,11 +90,11 @@ private:
     void obey_machine();
     bool stand();
     [[nodiscard]] bool dwell(FeedSegment& segment);
-    bool execute(FeedSegment& segment);
+    bool execute(FeedSegment& segment, LimitKind standstill = LimitKind::none);
     [[nodiscard]] bool come_to_rest(const std::string& broken);
     void require_end();
     [[noreturn]] void fail() const;
-    [[nodiscard]] bool execute_first(FeedSegment& segment);
+    [[nodiscard]] bool execute_first(FeedSegment& segment, LimitKind standstill = LimitKind::none);
     [[nodiscard]] bool move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to);
     void keep_failure(const std::exception_ptr& failure);
     void measure(const PathFeeder::Pushed& pushed);
@@ -117,6 +118,8 @@ private:
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
+    Steered steered_;
+    LinearLength length_; // of the path
     ProgramObserver program_;
     BackgroundWork work_; // what is measured, where nobody else looks at it meanwhile
     PathWatch watch_;
@@ -136,6 +139,7 @@ private:
     std::uint64_t segments_ = 0;
     double stood_s_ = 0.0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
+    bool at_end_ = false;     // the machine stands since the last of these
     bool read_all_ = false;
     bool moves_ = false;                                        // the axes move at the end of the last segment
     Supply supply_ = Supply::flows;                             // at the last pull

@@ -4,9 +4,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 namespace splinefeed::host {
+
+// Of a real machine what it has done, not what is planned.
+void Motion::show_progress() {
+    if (!progress_ || !progress_->due()) {
+        return;
+    }
+    if (!live_->is_real()) {
+        progress_->show({line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s()});
+        return;
+    }
+    const LiveMachine::Reached reached = live_->reached();
+    std::string place;
+    for (const RunTarget::AxisPlace& at : live_->places()) {
+        place += at.known() ? fmt::format(" {}={:.3f}", description_->axis_name[at.axis], *at.known()) : std::string();
+    }
+    const double segment_s = figures_->segment_ticks / (ticks_per_us * 1e6);
+    progress_->show({reached.moves, reached.line, static_cast<double>(live_->executed()) * segment_s, true, place});
+}
 
 // Where the path is too far from its moves; empty: nowhere.
 std::string Motion::excess() const {
@@ -47,7 +66,7 @@ Summary Motion::summary() const {
     Summary summary;
     const PlannedPath::Statistics path = path_->statistics();
     summary.cycle_time_s = machine_.cycle_time_s();
-    summary.length_mm = path.length_mm;
+    summary.length_mm = length_.is_part() || !stopped_.empty() ? length_.mm() : path.length_mm;
     summary.waypoints = feeder_.rows();
     summary.curve_segments = path.curve_segments;
     summary.feed_segments = segments_;
@@ -88,7 +107,7 @@ Summary Motion::summary() const {
     summary.window_limited = path.window_limited;
     summary.searched_legs = path.searched_legs;
     summary.slow_legs = path.slow_legs;
-    summary.stops = rests_ > 0 ? rests_ - 1 : 0;
+    summary.stops = rests_ - (at_end_ ? 1U : 0U);
     const double duration_s = figures_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm =
         duration_s * duration_s / 6.0 * std::sqrt(axis_totals(within_jerk(description_->settings)).acceleration_sq);

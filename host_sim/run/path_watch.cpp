@@ -26,7 +26,7 @@ void PathWatch::segment(const CurveSegment<double>& segment, std::uint32_t row, 
         measure(segment);
     }
     if (observers_.share != nullptr) {
-        observers_.share->programmed(row, segment.block_feed_mm_s());
+        observers_.share->programmed(row, segment.block_feed_mm_s(), segment.feed_mm_s < 0.0);
     }
 }
 

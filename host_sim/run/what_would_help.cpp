@@ -40,7 +40,7 @@ std::vector<Candidate> candidates(const MachineDescription& machine, const Summa
     if (shares.programmed_feed > 0.0) {
         add({LimitKind::feed}, nullptr, nullptr);
     }
-    if (shares.feed > shares.programmed_feed) {
+    if (shares.feed > shares.programmed_feed + shares.override_feed) {
         add({LimitKind::machine_feed}, &MachineSettings::max_feed_mm_s, nullptr);
     }
     for (std::size_t k = 0; k < names.size(); ++k) {

@@ -86,7 +86,6 @@ Input input_of_program(const Machine& machine, const std::string& format, const 
 }
 
 /// How many numbers BindingLimit::code() can be.
-constexpr unsigned limit_codes = (static_cast<unsigned>(host::LimitKind::chord) + 1U) << 3U;
 
 /// A planned motion: its bits, and what is said of it.
 struct Motion {
@@ -113,7 +112,7 @@ struct Motion {
         const std::vector<std::string> names(machine->axis_name.begin(),
                                              machine->axis_name.begin() + machine->settings.axes);
         std::vector<std::string> out;
-        for (unsigned code = 0; code < limit_codes; ++code) {
+        for (std::size_t code = 0; code < host::limit_codes; ++code) {
             const host::BindingLimit limit = host::BindingLimit::of(static_cast<std::uint8_t>(code));
             out.push_back(limit.axis < names.size() ? host::limit_name(limit, names) : std::string());
         }
@@ -135,7 +134,7 @@ std::shared_ptr<Motion> plan(const Input& input) {
 
 /// Adds a segment. Throws ValueError where no plan makes one like it.
 void add_checked(const FeedSegment& segment, const host::KeptMotion::Head& head, host::KeptMotion& out) {
-    bool possible = head.limit < limit_codes && segment.duration_ticks > 0;
+    bool possible = head.limit < host::limit_codes && segment.duration_ticks > 0;
     for (const unsigned k : indices(out.axes())) {
         std::int64_t distance = 0;
         possible = possible && !__builtin_sub_overflow(segment.end[k], segment.start[k], &distance);

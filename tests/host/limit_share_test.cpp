@@ -150,6 +150,46 @@ TEST_CASE("the feed is that of the waypoint") {
     CHECK(share.shares().none == 0.5);
 }
 
+TEST_CASE("an override, a hold and a dwell are limits of their own") {
+    MachineSettings machine = machine_of({"x"}).settings;
+    machine.max_feed_mm_s = 90.0;
+    FeedSegment moves = stroke(0.05, millisecond, units(0.05)); // 50 mm/s
+    moves.start_velocity[0] = moves.end_velocity[0];
+    FeedSegment rest;
+    rest.duration_ticks = millisecond;
+    LimitShare share(machine);
+    share.programmed(0, 100.0 / 3.0);
+    const auto kind_of = [&](const FeedSegment& segment, const Steered& steered) {
+        share.segment(segment, steered);
+        return share.binding_limit().kind;
+    };
+    CHECK(kind_of(moves, {.override_feed = 1.5}) == LimitKind::override_feed);
+    CHECK(kind_of(moves, {.override_feed = 1.7}) == LimitKind::none); // 56.7 mm/s are allowed
+    CHECK(kind_of(moves, {}) == LimitKind::feed);
+    CHECK(kind_of(moves, {.standstill = LimitKind::hold}) == LimitKind::hold); // it brakes
+    CHECK(kind_of(rest, {.standstill = LimitKind::hold}) == LimitKind::hold);
+    CHECK(kind_of(rest, {.standstill = LimitKind::dwell}) == LimitKind::dwell);
+    CHECK(kind_of(rest, {}) == LimitKind::none);
+    const LimitShares shares = share.shares();
+    CHECK(shares.override_feed == Approx(1.0 / 7.0));
+    CHECK(shares.programmed_feed == Approx(2.0 / 7.0)); // the hold's, too
+    CHECK(shares.feed == Approx(3.0 / 7.0));
+    CHECK(shares.hold == Approx(2.0 / 7.0));
+    CHECK(shares.dwell == Approx(1.0 / 7.0));
+    CHECK(shares.none == Approx(2.0 / 7.0));
+    SECTION("a rapid has none, and none is above the machine's feed") {
+        machine.max_feed_mm_s = 50.0;
+        LimitShare other(machine);
+        other.programmed(0, 0.0, true);
+        other.segment(moves, {.override_feed = 0.5});
+        CHECK(other.binding_limit().kind == LimitKind::machine_feed);
+        LimitShare fast(machine);
+        fast.programmed(0, 40.0);
+        fast.segment(moves, {.override_feed = 2.0});
+        CHECK(fast.binding_limit().kind == LimitKind::machine_feed);
+    }
+}
+
 TEST_CASE("a waypoint that no segment stops to tell of is passed over, and a feed above the machine's is not a limit") {
     MachineSettings machine = machine_of({"x"}).settings;
     machine.max_feed_mm_s = 50.0;

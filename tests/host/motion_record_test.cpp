@@ -44,7 +44,7 @@ struct Recorded {
 
 TEST_CASE("a motion there and back: its extremes, its stop and its length") {
     Recorded recorded;
-    recorded.record.come_to(0, 1, false);
+    recorded.record.come_to(0, 1, std::nullopt);
     recorded.run(motion_of(there_and_back()));
     recorded.record.finish();
     const TimeStrips& strips = recorded.record.strips();
@@ -80,12 +80,6 @@ TEST_CASE("a motion there and back: its extremes, its stop and its length") {
     }
     CHECK(way == Approx(40.0).epsilon(1e-4));
     CHECK(wanted == Approx(1000.0 * recorded.record.totals()[0].seconds)); // the machine's feed
-    // In each direction a tenth of a second at the largest velocity and two at the largest acceleration.
-    const auto bound = [&](LimitKind kind) {
-        return recorded.record.bound_s()[BindingLimit{kind}.code()];
-    };
-    CHECK(bound(LimitKind::velocity) == Approx(0.2).epsilon(0.1));
-    CHECK(bound(LimitKind::acceleration) == Approx(0.4).epsilon(0.1));
 }
 
 TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
@@ -100,9 +94,9 @@ TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
     record.move(move, false, 5);
     const Motion motion = motion_of(there_and_back());
     const std::size_t half = motion.size() / 2;
-    record.come_to(0, 4, true);
+    record.come_to(0, 4, 0);
     recorded.run({motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(half)});
-    record.come_to(1, 5, true);
+    record.come_to(1, 5, 1);
     recorded.run({motion.begin() + static_cast<std::ptrdiff_t>(half), motion.end()});
     FeedSegment stands{.duration_ticks = millisecond};
     record.dwells(6);
@@ -115,6 +109,39 @@ TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
     CHECK(record.programmed().points().size() == 3);
     CHECK(record.stops().back().stood_s >= 0.002);
     CHECK(record.stops().back().why == MotionRecord::Why::end);
+}
+
+TEST_CASE("the lines of a chain share its time by their length") {
+    Recorded recorded;
+    MotionRecord& record = recorded.record;
+    record.start({});
+    double at_mm = 0.0;
+    for (const auto& [line, way_mm] : {std::pair{3U, 5.0}, {4U, 10.0}, {5U, 0.0}, {6U, 5.0}, {7U, -20.0}}) {
+        PathElement<double> move;
+        move.to[0] = position_from_mm(at_mm += way_mm);
+        record.move(move, false, line);
+    }
+    const Motion motion = motion_of(there_and_back());
+    const auto half = motion.begin() + static_cast<std::ptrdiff_t>(motion.size() / 2);
+    record.come_to(3, 6, 3);
+    recorded.run({motion.begin(), half});
+    record.come_to(4, 7, 4);
+    recorded.run({half, motion.end()});
+    record.finish();
+    // 5 mm of speeding up at 1000 mm/s^2, 10 mm at 100 mm/s, 5 mm of braking.
+    const auto& lines = record.lines().lines();
+    CHECK(lines[3].seconds == Approx(0.1).margin(0.003));
+    CHECK(lines[4].seconds == Approx(0.1).margin(0.003));
+    CHECK(lines[5].seconds == Approx(0.0).margin(1e-9));
+    CHECK(lines[6].seconds == Approx(0.1).margin(0.003));
+    CHECK(lines[4].start_s == Approx(0.1).margin(0.003));
+    CHECK(lines[6].start_s == Approx(0.2).margin(0.003));
+    CHECK(lines[4].way_mm == 10.0F);
+    double seconds = 0.0;
+    for (const LineTimes::Line& line : lines) {
+        seconds += line.seconds;
+    }
+    CHECK(seconds == Approx(1e-3 * static_cast<double>(motion.size())).epsilon(1e-9));
 }
 
 TEST_CASE("tools have their time, and of very many events the first ones are kept") {

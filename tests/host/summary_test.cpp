@@ -53,6 +53,13 @@ void shared_limits(Summary& summary) {
         LimitShares{{{0.5, 0.25, 0.125}, {0.0, 0.75, std::nullopt}}, 0.375, 0.0, std::nullopt, std::nullopt, 0.0625};
 }
 
+void steered_shares(Summary& summary) {
+    shared_limits(summary);
+    summary.limit_share->override_feed = 0.125;
+    summary.limit_share->hold = 0.25;
+    summary.limit_share->dwell = 0.05;
+}
+
 void what_would_help(Summary& summary) {
     summary.what_would_help = LimitAdvice{{{"window of 4096 cells", {}, 4096, 11.9, 0.036},
                                            {"jerk of x", "axis.x.max_jerk_mm_s3=33000", 0, 12.0, 0.028},
@@ -145,6 +152,7 @@ const Row rows[] = {
         }),
     row("no axis has a jerk limit", [](Summary& s) { s.limit_use[0].jerk.reset(); }),
     row("shares of the limits", shared_limits),
+    row("shares of a run with an override, a hold and a dwell", steered_shares),
     row("shares of a path with a centripetal limit and a chord error, and no axis with a jerk limit",
         [](Summary& s) {
             shared_limits(s);

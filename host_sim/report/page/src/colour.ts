@@ -32,8 +32,9 @@ export function axisColour(name: string, index: number): string {
     return `#${axes[name.toLowerCase()] ?? spare[index % spare.length]}`;
 }
 
-// By LimitKind of limit_kind.hpp: none, feed, machine's feed, velocity, acceleration, jerk, centripetal, chord.
-const kinds = ["9aa0a6", "56b4e9", "0072b2", "009e73", "e69f00", "cc79a7", "d55e00", "b8a800"].map(parse);
+// By LimitKind of limit_kind.hpp: none, feed, machine's feed, velocity, acceleration, jerk, centripetal, chord, override, hold, dwell.
+const kinds = ["9aa0a6", "56b4e9", "0072b2", "009e73", "e69f00", "cc79a7", "d55e00", "b8a800", "7a5cd0", "e8d81c", "6b5344"].map(parse);
+export const limitCodes = 8 * kinds.length;
 
 /** Of a limit, by its code; axes of one kind differ in brightness. */
 export function limitColour(code: number): Rgb {

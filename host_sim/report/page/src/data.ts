@@ -154,6 +154,7 @@ export interface Lines {
     start: Float64Array;
     seconds: Float64Array;
     limit: Float64Array;
+    bead: Float64Array; // of a print: filament by way; empty: nothing is extruded
 }
 
 export interface Layer {
@@ -170,7 +171,6 @@ function layers(json: Json, end: number): Layer[] {
 
 export interface Limit {
     name: string;
-    feed_s: number; // of feeds: time in which it was the one that was used most
 }
 
 export interface Report {
@@ -227,6 +227,7 @@ export function read(text: string): Report {
             start: column(lines.start, lines.count, lines.time_unit),
             seconds: column(lines.seconds, lines.count, lines.time_unit),
             limit: column(lines.limit, lines.count, 1),
+            bead: column(lines.bead, lines.bead_count, lines.bead_unit),
         },
         path: motion,
         programmed: places(json.programmed),

@@ -8,11 +8,30 @@ import type { Colouring, Pieces } from "./pieces";
 
 const most_wide = 60000; // pieces that are drawn as wide lines
 const most_wide_moving = 8000; // that stay wide while the picture moves
-const most_moving = 30000; // that are drawn while the picture moves
+const most_moving = 10000; // that are drawn while the picture moves
 const block = 64; // pieces that stay together then
 
-/** All of the chosen pieces and, if they are too many to move, some of them. */
-export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[], prepare: <M extends Material>(material: M) => M): [Object3D, Object3D?] {
+export interface Coloured {
+    all: Object3D[];
+    some?: Object3D; // if all are too many to move
+    beads: [LineMaterial, number][]; // lines as wide as so many millimetres
+}
+
+/** Lines of each width, where widths are known. */
+function widths(chosen: number[], of?: Float32Array): Map<number, number[]> {
+    const step = 1.12;
+    const out = new Map<number, number[]>();
+    for (let n = 0; n < chosen.length; ++n) {
+        const width = of ? step ** Math.round(Math.log(of[chosen[n]]) / Math.log(step)) : 0;
+        const same = out.get(width);
+        if (same) same.push(n);
+        else out.set(width, [n]);
+    }
+    return out;
+}
+
+/** The chosen pieces. @param wide  the width of each piece [mm] */
+export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[], prepare: <M extends Material>(material: M) => M, wide?: Float32Array): Coloured {
     const ends = new Float32Array(6 * chosen.length);
     const colours = new Float32Array(6 * chosen.length);
     const linear = colouring.table.map((colour) => colour.map((c) => (c < 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))); // as three blends them
@@ -23,13 +42,19 @@ export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[],
             colours[6 * n + k] = colour[k % 3];
         }
     });
-    let wide: Object3D | undefined;
+    const all: Object3D[] = [];
+    const beads: [LineMaterial, number][] = [];
     if (chosen.length <= most_wide) {
-        const geometry = new LineSegmentsGeometry();
-        geometry.setPositions(ends);
-        geometry.setColors(colours);
-        wide = new LineSegments2(geometry, prepare(new LineMaterial({ vertexColors: true, linewidth: 2.6 })));
-        if (chosen.length <= most_wide_moving) return [wide];
+        for (const [width, members] of widths(chosen, wide)) {
+            const part = (values: Float32Array) => (members.length === chosen.length ? values : Float32Array.from({ length: 6 * members.length }, (_, i) => values[6 * members[Math.floor(i / 6)] + (i % 6)]));
+            const geometry = new LineSegmentsGeometry();
+            geometry.setPositions(part(ends));
+            geometry.setColors(part(colours));
+            const material = prepare(new LineMaterial({ vertexColors: true, linewidth: 2.6 }));
+            if (width > 0) beads.push([material, width]);
+            all.push(new LineSegments2(geometry, material));
+        }
+        if (chosen.length <= most_wide_moving) return { all, beads };
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(ends, 3));
@@ -42,7 +67,7 @@ export function coloured(pieces: Pieces, colouring: Colouring, chosen: number[],
     for (const name of ["position", "color"]) part.setAttribute(name, geometry.getAttribute(name));
     const drawn = [geometry, part].map((of) => new LineSegments(of, material));
     for (const lines of drawn) lines.frustumCulled = false; // its sphere takes long to find
-    return [wide ?? drawn[0], drawn[1]];
+    return { all: all.length ? all : [drawn[0]], some: drawn[1], beads };
 }
 
 /** Dashes that run on from piece to piece. @param ends x, y, z of the begin and of the end of each piece */

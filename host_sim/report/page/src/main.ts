@@ -42,13 +42,12 @@ listing.onPick = (line) => {
 let dark = matchMedia("(prefers-color-scheme: dark)").matches;
 const legend = el("div", { class: "legend" });
 
-space.covers = [legend];
-
 function drawLegend(): void {
     const { quantity, coloured } = space;
     if (quantity === "limit") {
-        const rows = Object.entries(report.limits).filter(([, limit]) => limit.feed_s > 0).sort((a, b) => b[1].feed_s - a[1].feed_s).slice(0, 9);
-        legend.replaceChildren(...rows.map(([code, { name, feed_s }]) => el("div", {}, panels.chip(Number(code), name), el("small", {}, ` ${((100 * feed_s) / report.totals.feed.time_s).toFixed(1)} %`))));
+        const rows = Object.entries(report.limits).map(([code, { name }]) => ({ code: Number(code), name, share: motion.share(Number(code)) }));
+        const shown = rows.filter(({ share }) => share > 0).sort((a, b) => b.share - a.share).slice(0, innerWidth > 900 ? 9 : 5);
+        legend.replaceChildren(el("small", {}, "share of the cycle time"), ...shown.map(({ code, name, share }) => el("div", {}, panels.chip(code, name), el("small", {}, ` ${panels.percent(share)}`))));
         return;
     }
     const bar = el("canvas", { width: "120", height: "1" });
@@ -90,20 +89,21 @@ const view = (name: View, key: string) => el("button", { title: `view: ${name} (
 const toggle = (name: string, text: string, on: boolean) => {
     const box = el("input", on ? { type: "checkbox", checked: "" } : { type: "checkbox" });
     box.addEventListener("change", () => space.show(name, box.checked));
+    if (!on) space.show(name, false);
     return el("label", {}, box, text);
 };
 const boxed = motion.space.every((k) => k < 0 || report.machine.axes[k].travel);
+const rising = report.layers;
 const tools = el("div", { class: "tools" },
     el("span", {}, "colour ", colours),
     el("span", { class: "views" }, view("free", "1"), view("top", "2"), view("front", "3"), view("side", "4")),
     el("span", { class: "layers-of" },
-        ...(report.programmed.count > 1 ? [toggle("programmed", "program", true)] : []),
-        ...(report.totals.rapid.time_s > 0 ? [toggle("rapids", "rapids", true)] : []),
+        ...(report.programmed.count > 1 ? [toggle("programmed", "program", !rising.length)] : []),
+        ...(report.totals.rapid.time_s > 0 || report.lines.bead.length ? [toggle("rapids", report.lines.bead.length ? "travel moves" : "rapids", !rising.length)] : []),
         toggle("stops", "stops", true), ...(report.waypoints[0]?.length ? [toggle("points", "waypoints", space.sparse)] : []), toggle("arrows", "direction", true),
-        ...(boxed ? [toggle("travel", "travel", true)] : [])),
+        toggle("tool", "tool", !space.flat), toggle("zero", "zero", true), ...(boxed ? [toggle("travel", "travel", false)] : [])),
 );
 
-const rising = report.layers;
 if (rising.length) {
     const last = String(rising.length - 1);
     const low = el("input", { type: "range", min: "0", max: last, value: "0", "aria-label": "lowest layer" });
@@ -121,6 +121,8 @@ if (rising.length) {
     apply();
 }
 
+space.covers = [legend, ...(tools.children as unknown as HTMLElement[])];
+
 const over = choice<Over>("strips over", [["time", "over time"], ["length", "over path length"]], (value) => {
     strips.set(value);
     strips.moveTo(player.time);
@@ -135,9 +137,10 @@ const header = el("header", {},
         big("cycle time", `${number(s.cycle_time_s, 5)} s`),
         ...(s.cycle_time_s >= 60 ? [big("that is", duration(s.cycle_time_s))] : []),
         ...(s.optimum_time_s ? [big("optimum", `${number(s.optimum_time_s, 5)} s`)] : []),
-        big("path length", `${number(report.stopped ? report.strips.whole : s.length_mm, 5)} mm`),
-        big("largest speed", `${number(s.max_speed_mm_s, 4)} mm/s`),
+        big("path length", `${number(s.length_mm, 5)} ${motion.lengthUnit}`),
+        big("largest speed", `${number(s.max_speed_mm_s, 4)} ${motion.speedUnit}`),
         big("stops", String(s.stops)),
+        ...(s.program?.dwells ? [big("dwells", String(s.program.dwells))] : []),
     ] : []),
     el("button", { class: "theme", title: "light or dark (d)", "aria-label": "light or dark", click: () => dress((dark = !dark)) }, "\u25d0"),
 );

@@ -25,12 +25,17 @@ export class Motion {
     readonly end: number;
     /** Which axes are drawn as x, y and z; -1: none. */
     readonly space: [number, number, number];
+    /** Of lengths and of speeds along the path. */
+    readonly lengthUnit: string;
+    readonly speedUnit: string;
 
     constructor(readonly report: Report) {
         const { path, machine } = report;
         this.end = path.count ? path.time[path.count - 1] : 0;
         const names = machine.axes.map((axis) => axis.name.toLowerCase());
         const linear = machine.axes.map((axis, k) => (axis.unit === "mm" ? k : -1)).filter((k) => k >= 0);
+        this.lengthUnit = linear.length || !machine.axes.length ? "mm" : "deg";
+        this.speedUnit = `${this.lengthUnit}/s`;
         const spare = linear.length ? linear : machine.axes.map((_, k) => k);
         const named = ["x", "y", "z"].map((name) => names.indexOf(name));
         const usual = named.some((k) => k >= 0) && linear.length > 0;
@@ -107,6 +112,17 @@ export class Motion {
         const { path, strips } = this.report;
         const piece = this.piece(t);
         return (this.finer(piece) ? path.limit[piece] : strips.limit[this.bin(t)]) ?? 0;
+    }
+
+    /** The share of the cycle time in which a limit binds, as the summary has it. */
+    share(code: number): number {
+        const share = this.report.summary.limit_share;
+        if (!share) return 0;
+        const axis = this.report.machine.axes[code & 7]?.name ?? "";
+        return [
+            share.none, share.programmed_feed, share.feed - share.programmed_feed - share.override, share.velocity[axis], share.acceleration[axis], share.jerk[axis],
+            share.centripetal, share.chord, share.override, share.hold, share.dwell,
+        ][code >> 3] ?? 0;
     }
 
     /** When a line begins; nothing: it has no motion. */

@@ -10,8 +10,8 @@ type Go = (t: number) => void;
 const most_rows = 500; // of a table
 type Row = { cells: (string | Node)[]; go?: () => void; id?: string };
 
-function percent(share: number, digits = 1): string {
-    return `${(100 * share).toFixed(digits)} %`;
+export function percent(share: number, digits = 1): string {
+    return `${(100 * share).toFixed(digits)}\u00a0%`;
 }
 
 function meter(share: number, colour: string, text: string): HTMLElement {
@@ -51,8 +51,8 @@ export class Readout {
             name.style.color = axisColour(axis.name, k);
             return { cells: [name, "", "", "", ""] };
         });
-        const unit = axes.some((axis) => axis.unit === "deg") ? (axes.some((axis) => axis.unit === "mm") ? "mm, deg" : "deg") : "mm";
-        const made = table(["", unit, "velocity", "acceleration", "jerk"], rows);
+        const units = (per: string) => `[${[...new Set(axes.map((axis) => axis.unit + per))].join(", ")}]`;
+        const made = table(["", `position ${units("")}`, `velocity ${units("/s")}`, `acceleration ${units("/s\u00b2")}`, `jerk ${units("/s\u00b3")}`], rows);
         this.cells = [...made.querySelectorAll("tbody tr")].map((row) => [...row.children] as HTMLElement[]);
         this.element.append(this.head, made, this.modal);
     }
@@ -64,8 +64,7 @@ export class Readout {
         report.machine.axes.forEach((axis, k) => {
             const share = (channel: number, limit: number) => {
                 const [low, high] = this.strips.value(channel + 3 * k, t);
-                const middle = (low + high) / 2;
-                if (!(limit > 0)) return axis.unit === "mm" ? `${number(middle / 1000, 3)} m/s\u00b3` : `${number(middle, 3)} deg/s\u00b3`; // of jerk alone
+                if (!(limit > 0)) return number((low + high) / 2, 3); // of jerk alone
                 const value = Math.abs(high) > Math.abs(low) ? high : low;
                 return `${number(value * limit, 3)} (${Math.round(100 * value)} %)`;
             };
@@ -87,7 +86,7 @@ export class Readout {
         this.head.replaceChildren(
             fact("time", `${t.toFixed(3)} s`),
             fact(report.lines.unit, last > first ? `${first} to ${last}` : last > 0 ? String(last) : "-"),
-            fact("speed", `${span(low, high)} mm/s`),
+            fact("speed", `${span(low, high)} ${this.motion.speedUnit}`),
             fact("limit that binds", chip(code, report.limits[code]?.name ?? "-")),
         );
         this.modal.replaceChildren(...this.motion.modal(t).map((text) => el("span", {}, text)));
@@ -104,13 +103,15 @@ export function summary(motion: Motion): HTMLElement {
     const rows: [string, string][] = [
         ["cycle time", `${number(s.cycle_time_s, 6)} s`],
         ["optimum", s.optimum_time_s ? `${number(s.optimum_time_s, 6)} s (this run takes ${((s.cycle_time_s / s.optimum_time_s - 1) * 100).toFixed(2)} % longer)` : "not known"],
-        ["path length", `${number(s.length_mm, 6)} mm`],
-        ["largest speed", `${number(s.max_speed_mm_s, 6)} mm/s`],
+        ["path length", `${number(s.length_mm, 6)} ${motion.lengthUnit}`],
+        ["largest speed", `${number(s.max_speed_mm_s, 6)} ${motion.speedUnit}`],
+        ["stops on the way", String(s.stops)],
+        ...(s.program?.dwells ? [["dwells", `${s.program.dwells}, ${number(s.program.dwell_s, 4)} s`] as [string, string]] : []),
     ];
     const names: Record<string, string> = { feed: "feeds", rapid: "rapids", approach: "to the start", standing: "standing" };
     for (const [kind, name] of Object.entries(names)) {
         const total = report.totals[kind];
-        if (total.time_s > 0) rows.push([name, `${duration(total.time_s)}${kind === "standing" ? "" : `, ${number(total.length_mm, 5)} mm`}`]);
+        if (total.time_s > 0) rows.push([name, `${duration(total.time_s)}${kind === "standing" ? "" : `, ${number(total.length_mm, 5)} ${motion.lengthUnit}`}`]);
     }
     if (s.waypoint_error_mm !== null) rows.push(["waypoint error", `${number(s.waypoint_error_mm, 3)} mm at most`]);
     rows.push(["smoothing error", `${number(s.smoothing_bound_mm, 3)} mm at most`]);
@@ -123,7 +124,7 @@ export function summary(motion: Motion): HTMLElement {
         const place = (p: Json) => (p.at ? `, ${p.line ? `line ${p.line}` : `at ${p.at}`}` : "");
         const more: [string, string][] = [["deviation", `${number(of.deviation_mm.distance, 3)} mm at most${place(of.deviation_mm)}`]];
         if (of.deviation_deg) more.push(["rotary deviation", `${number(of.deviation_deg.distance, 3)} deg at most${place(of.deviation_deg)}`]);
-        more.push(["joints", `${of.blended} rounded, ${of.stopped} with a stop, ${of.through} straight on`]);
+        more.push(["joints", `${of.blended} rounded, ${of.stopped} with a stop (the end is one), ${of.through} straight on`]);
         more.push(["chains", String(of.chains)]);
         more.push(["with exact stops", `${number(of.exact_stop_time_s, 5)} s (estimated)`]);
         parts.push(el("h3", {}, "Within the tolerance"), facts(more));
@@ -190,12 +191,8 @@ export function limits(motion: Motion): HTMLElement {
             ],
         }));
         parts.push(el("h3", {}, "Share of the time at a limit"), table(["", "velocity", "acceleration", "jerk"], rows));
-        parts.push(table(["", ""], [
-            ["path feed", share.feed, code(1)],
-            ["centripetal", share.centripetal, code(6)],
-            ["chord error", share.chord, code(7)],
-            ["no limit", share.none, code(0)],
-        ].filter(([, value], i) => value > 0 || i === 0 || i === 3).map(([name, value, colour]) => ({ cells: [name, bar(value, colour)] }))));
+        const kinds: [number, string][] = [[1, "programmed feed"], [2, "machine's feed"], [8, "override"], [9, "hold"], [10, "dwell"], [6, "centripetal"], [7, "chord error"], [0, "no limit"]];
+        parts.push(table(["", ""], kinds.map(([kind, name]) => ({ kind, name, value: motion.share(kind * 8) })).filter(({ kind, value }) => value > 0 || kind === 0).map(({ kind, name, value }) => ({ cells: [name, bar(value, code(kind))] }))));
     }
     const use = report.summary.limit_use;
     parts.push(el("h3", {}, "Limits used at most"), table(["", "velocity", "acceleration", "jerk"], report.machine.axes.map(({ name }) => ({
@@ -229,7 +226,7 @@ export function costly(motion: Motion, go: Go): HTMLElement {
         go: () => go(motion.start(line.line) ?? line.start_s),
         id: `line-${line.line}`,
     }));
-    return el("div", {}, el("h3", {}, `${lines.unit === "line" ? "Lines" : "Segments"} that take most time`), table([lines.unit, "time", "", "bound longest by", ""], rows));
+    return el("div", {}, el("h3", {}, `${lines.unit === "line" ? "Lines" : "Segments"} that take most time`), table([lines.unit, "time", "share", "bound longest by", "text"], rows));
 }
 
 export function why(motion: Motion, stop: Motion["report"]["stops"][number]): string {
@@ -239,15 +236,14 @@ export function why(motion: Motion, stop: Motion["report"]["stops"][number]): st
         case "turn": return stop.turn_deg > 179 ? "it turns back" : `corner of ${number(stop.turn_deg, 3)}\u00b0`;
         case "exact stop": return "exact stop (G61.1)";
         case "program": return event ? event.what.replaceAll("_", " ") : `dwell of ${number(stop.stood_s, 3)} s`;
-        case "held": return "held by the operator";
-        case "end": return "end of the motion";
         default: return event ? event.what.replaceAll("_", " ") : "the program asks for it";
     }
 }
 
+/** Those of the program; a hold is the operator's, and an event. */
 export function stops(motion: Motion, go: Go): HTMLElement {
-    const { stops: all, stopCount, lines, machine } = motion.report;
-    const shown = all.slice(0, most_rows);
+    const { stops: all, lines, machine, summary: { stops: count } } = motion.report;
+    const shown = all.filter((stop) => stop.why !== "held" && stop.why !== "end").slice(0, most_rows);
     const rows = shown.map((stop) => ({
         cells: [
             `${stop.t.toFixed(3)} s`,
@@ -258,8 +254,9 @@ export function stops(motion: Motion, go: Go): HTMLElement {
         ],
         go: () => go(stop.t),
     }));
-    const title = `${stopCount} stop${stopCount === 1 ? "" : "s"}${shown.length < stopCount ? `, the first ${shown.length}` : ""}`;
-    return el("div", {}, el("h3", {}, title), table(["time", "where", "why", "stands", machine.axes.map((axis) => axis.name).join(", ")], rows));
+    const title = `${count} stop${count === 1 ? "" : "s"} on the way${shown.length < count ? `, the first ${shown.length}` : ""}`;
+    const places = machine.axes.map((axis, k) => (axis.unit === machine.axes[k + 1]?.unit ? axis.name : `${axis.name} [${axis.unit}]`)).join(", ");
+    return el("div", {}, el("h3", {}, title), table(["time", "where", "why", "stands", places], rows));
 }
 
 export function events(motion: Motion, go: Go): HTMLElement {
@@ -284,9 +281,9 @@ export function tools(motion: Motion): HTMLElement | "" {
 export function layerTable(all: Layer[], go: Go): HTMLElement {
     const longest = all.reduce((a, layer) => Math.max(a, layer.seconds), 1e-9);
     const rows = all.slice(0, 10000).map((layer, i) => ({
-        cells: [String(i + 1), `${Number(layer.z.toFixed(4))} mm`, meter(layer.seconds / longest, "#2a788e", duration(layer.seconds))],
+        cells: [String(i + 1), String(Number(layer.z.toFixed(4))), meter(layer.seconds / longest, "#2a788e", duration(layer.seconds))],
         go: () => go(layer.start),
     }));
     const title = `${all.length} layers${rows.length < all.length ? `, the first ${rows.length}` : ""}`;
-    return el("div", {}, el("h3", {}, title), table(["layer", "z", "time"], rows));
+    return el("div", {}, el("h3", {}, title), table(["layer", "z [mm]", "time"], rows));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The path in pieces of one colour each: those of the report, divided where the strips know more.
-import { limitColour, ramp, type Rgb } from "./colour";
-import { Kind, type Motion } from "./motion";
+import { limitCodes, limitColour, ramp, type Rgb } from "./colour";
+import { before, Kind, type Motion } from "./motion";
 
 export type Quantity = "speed" | "feed" | "acceleration" | "jerk" | "limit" | "deviation";
 
@@ -44,6 +44,21 @@ export function divide(motion: Motion): Pieces {
         if (i > 0) drawn[i - 1] = path.kind[knots[i]] !== Kind.standing ? 1 : 0;
     }
     return { count, xyz, time: Float64Array.from(times), knot: Uint32Array.from(knots.slice(1)), drawn };
+}
+
+const filament_mm2 = (Math.PI / 4) * 1.75 ** 2;
+
+/** Of a print, of each piece: the width of its bead [mm]; 0: nothing is extruded. Undefined: the program tells nothing of it. */
+export function beads(motion: Motion, pieces: Pieces): Float32Array | undefined {
+    const { lines: { bead }, layers, path } = motion.report;
+    if (!bead.length || !layers.length) return undefined;
+    const heights = layers.map((layer) => layer.z);
+    return Float32Array.from({ length: pieces.count }, (_, i) => {
+        const filament = bead[path.line[pieces.knot[i]]] ?? 0;
+        const layer = before(heights, pieces.xyz[3 * i + 5] + 1e-3);
+        const tall = heights[layer] - (layer > 0 ? heights[layer - 1] : 0);
+        return filament > 0 && tall > 0 ? Math.min((filament * filament_mm2) / tall, 20 * tall) : 0;
+    });
 }
 
 /** How far the path is from the program on the way to a point: of each row the most. */
@@ -101,7 +116,7 @@ export function colouring(motion: Motion, pieces: Pieces, quantity: Quantity, da
     if (quantity === "speed") top = totals.feed.max_speed_mm_s; // of what is coloured: rapids are not
     if (quantity === "deviation") top = mm.reduce((a, b) => Math.max(a, b), 0);
     if (!(top > 0)) top = 1;
-    const steps = quantity === "limit" ? 64 : 256;
+    const steps = quantity === "limit" ? limitCodes : 256;
     const table = Array.from({ length: steps }, (_, n) => (quantity === "limit" ? limitColour(n) : ramp(n / (steps - 1), dark)));
     const factor = quantity === "limit" ? 1 : (steps - 1) / top;
     const of = new Uint16Array(pieces.count);

@@ -8,10 +8,11 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { Kind, type Motion } from "./motion";
-import { colouring, divide, type Colouring, type Pieces, type Quantity } from "./pieces";
+import { nearest } from "./nearest";
+import { beads, colouring, divide, type Colouring, type Pieces, type Quantity } from "./pieces";
 import { el } from "./dom";
-import { grid, travelBox, type Tick } from "./ground";
-import { coloured, dashed } from "./lines";
+import { grid, toolCone, travelBox, travelCorners, workZero, type Tick } from "./ground";
+import { coloured, dashed, type Coloured } from "./lines";
 import { arrows, mark, points } from "./marks";
 
 export type View = "free" | "top" | "front" | "side";
@@ -44,8 +45,9 @@ export class Space {
     private readonly high = new Vector3(-Infinity, -Infinity, -Infinity);
     private readonly groups: Record<string, Group> = {};
     private readonly planes = [new Plane(new Vector3(0, 0, 1), 1e9), new Plane(new Vector3(0, 0, -1), 1e9)];
-    private all?: Object3D; // of the path
-    private some?: Object3D; // if the pieces are too many to move all of them
+    private lines: Coloured = { all: [], beads: [] }; // of the path
+    private readonly widths?: Float32Array; // of its pieces
+    private readonly corners: Vector3[]; // of the travel
     private rest = 0; // a timer, while the picture moves
     private held = false; // by the pointer
     private clipped = false; // by the planes
@@ -66,6 +68,8 @@ export class Space {
         const axes = motion.space.map((k) => programmed.position[k]);
         this.programmed = Float32Array.from({ length: 3 * programmed.count }, (_, i) => axes[i % 3]?.[Math.floor(i / 3)] ?? 0);
         this.measure();
+        this.widths = beads(motion, this.pieces);
+        this.corners = travelCorners(motion);
         this.element.append(this.renderer.domElement, this.labels, el("div", { class: "labels" }, this.ghost, this.tool));
         this.hover(-1);
         this.camera.up.set(0, 0, 1);
@@ -74,7 +78,7 @@ export class Space {
         this.controls.addEventListener("change", () => this.moves());
         this.controls.addEventListener("start", () => (this.held = true));
         this.controls.addEventListener("end", () => ((this.held = false), this.moves()));
-        for (const name of ["ground", "travel", "programmed", "rapids", "path", "arrows", "points", "stops", "marks"]) {
+        for (const name of ["ground", "travel", "zero", "programmed", "rapids", "path", "arrows", "points", "stops", "marks", "tool"]) {
             this.scene.add((this.groups[name] = new Group()));
         }
         new ResizeObserver(() => this.resize()).observe(this.element);
@@ -97,7 +101,9 @@ export class Space {
         const { lines, ticks } = grid(this.motion, this.low, this.high, dark ? 0x2b3036 : 0xe4e7ea);
         this.ticks = ticks;
         this.add("ground", lines);
-        this.add("travel", travelBox(this.motion, faint));
+        this.add("travel", travelBox(this.corners, faint));
+        for (const axis of workZero(this.motion, 0.14 * this.size)) this.add("zero", axis);
+        if (this.motion.space[2] >= 0) this.add("tool", toolCone(0.09 * this.size));
         this.drawProgrammed(dark ? "#8f979f" : "#7d858c");
         this.paint(this.quantity);
         const { waypoints } = this.motion.report;
@@ -112,20 +118,37 @@ export class Space {
     paint(quantity: Quantity): void {
         this.quantity = quantity;
         this.coloured = colouring(this.motion, this.pieces, quantity, this.dark);
+        this.drawPath();
+    }
+
+    private drawPath(): void {
         const { kind } = this.motion.report.path;
+        const { xyz, drawn, knot, count } = this.pieces;
+        const [low, high] = this.between;
         const chosen: number[] = [];
-        for (let i = 0; i < this.pieces.count; ++i) {
-            if (this.pieces.drawn[i] && kind[this.pieces.knot[i]] !== Kind.rapid) chosen.push(i);
+        for (let i = 0; i < count; ++i) {
+            if (!drawn[i] || kind[knot[i]] === Kind.rapid || this.travels(i)) continue;
+            if (xyz[3 * i + 5] >= low && xyz[3 * i + 5] <= high) chosen.push(i);
         }
-        [this.all, this.some] = coloured(this.pieces, this.coloured, chosen, (material) => this.material(material));
+        this.lines = coloured(this.pieces, this.coloured, chosen, (material) => material, this.widths);
+        this.element.dataset.beads = this.lines.beads.map(([, width]) => width.toFixed(3)).join(" ");
         this.groups.path.clear();
-        this.add("path", this.all);
-        this.add("path", this.some);
+        for (const object of [...this.lines.all, this.lines.some]) this.add("path", object);
         this.moves();
+    }
+
+    private get between(): [number, number] {
+        return [-this.planes[0].constant, this.planes[1].constant];
+    }
+
+    /** Whether a print extrudes nothing on a piece. */
+    private travels(i: number): boolean {
+        return this.widths !== undefined && !(this.widths[i] > 0);
     }
 
     show(name: string, visible: boolean): void {
         this.groups[name].visible = visible;
+        if (name === "travel") this.fit();
         this.draw();
     }
 
@@ -134,12 +157,12 @@ export class Space {
         this.planes[0].constant = -low;
         this.planes[1].constant = high;
         this.clipped = low > -1e9 || high < 1e9;
-        for (const name of ["path", "programmed", "rapids", "arrows"]) {
+        for (const name of ["programmed", "rapids", "arrows"]) {
             this.groups[name].traverse((object) => {
                 if (object instanceof Line || object instanceof LineSegments2) this.material(object.material);
             });
         }
-        this.moves();
+        if (this.coloured) this.drawPath();
     }
 
     look(view: View): void {
@@ -155,7 +178,9 @@ export class Space {
 
     moveTo(t: number): void {
         this.places.tool.set(...this.motion.place(this.motion.position(t)));
+        for (const cone of this.groups.tool.children) cone.position.copy(this.places.tool);
         this.drawCursors();
+        if (this.groups.tool.visible) this.draw();
     }
 
     /** Where the pointer is in a strip; below 0: in none. */
@@ -167,16 +192,16 @@ export class Space {
 
     /** The picture moves: if it is large, some of it is drawn until it rests. */
     private moves(): void {
-        if (this.some) {
+        if (this.lines.some) {
             clearTimeout(this.rest);
             if (!this.held) this.rest = window.setTimeout(() => this.thin(false), pause_ms);
         }
-        this.thin(this.some !== undefined);
+        this.thin(this.lines.some !== undefined);
     }
 
     private thin(thin: boolean): void {
-        if (this.all) this.all.visible = !thin;
-        if (this.some) this.some.visible = thin;
+        for (const object of this.lines.all) object.visible = !thin;
+        if (this.lines.some) this.lines.some.visible = thin;
         const [line] = this.groups.programmed.children;
         if (line) line.visible = !thin;
         this.element.dataset.drawn = thin ? "some" : "all";
@@ -242,8 +267,8 @@ export class Space {
             at.fromArray(xyz, i);
             cover();
         }
-        for (const tick of this.ticks) {
-            at.copy(tick.at);
+        for (const place of [...this.ticks.map((tick) => tick.at), ...(this.groups.travel.visible ? this.corners : [])]) {
+            at.copy(place);
             cover();
         }
         const room = (pixels: number, of: number) => Math.max(1 - pixels / of, 0.3); // of labels and, above, of what lies there
@@ -265,6 +290,8 @@ export class Space {
 
     private render(): void {
         this.asked = false;
+        const pixels = (this.frame.height * this.camera.zoom) / (this.camera.top - this.camera.bottom); // of a millimetre
+        for (const [material, width] of this.lines.beads) material.linewidth = Math.max(width * pixels, 1.2);
         this.renderer.render(this.scene, this.camera);
         this.drawLabels();
         this.drawCursors();
@@ -297,7 +324,7 @@ export class Space {
         const ends: number[] = [];
         for (let i = 0; i < this.pieces.count; ++i) {
             const of = kind[this.pieces.knot[i]];
-            if (this.pieces.drawn[i] && (of === Kind.rapid || of === Kind.approach)) {
+            if (this.pieces.drawn[i] && (of === Kind.rapid || of === Kind.approach || this.travels(i))) {
                 ends.push(...this.pieces.xyz.subarray(3 * i, 3 * i + 6));
             }
         }
@@ -308,7 +335,7 @@ export class Space {
         const { motion } = this;
         const { report } = motion;
         const at = (t: number) => [...motion.place(motion.position(t))];
-        const inner = report.stops.filter((stop) => stop.why !== "end");
+        const inner = report.stops.filter((stop) => stop.why !== "end" && stop.why !== "held");
         this.marks("stops", inner.map((stop) => [...motion.place(stop.position)]), mark("ring", "#d55e00", ground), 11);
         const tools = report.events.filter((event) => event.what === "change_tool" || event.what === "set_tool");
         this.marks("marks", tools.map((event) => at(event.t)), mark("diamond", "#cc79a7", ink), 15);
@@ -358,33 +385,8 @@ export class Space {
         canvas.addEventListener("pointerup", (event) => {
             if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
             const box = canvas.getBoundingClientRect();
-            const t = this.nearest(event.clientX - box.left, event.clientY - box.top);
+            const t = nearest(this.pieces, event.clientX - box.left, event.clientY - box.top, this.between, (at) => this.onScreen(at));
             if (t !== undefined) this.onPick(t);
         });
-    }
-
-    /** The time of the nearest place of the path on the screen, within some pixels. */
-    nearest(x: number, y: number): number | undefined {
-        const { xyz, time, drawn } = this.pieces;
-        let best = 15 * 15;
-        let found: number | undefined;
-        const at = new Vector3();
-        let [px, py] = [0, 0];
-        for (let i = 0; i * 3 < xyz.length; ++i) {
-            if (xyz[3 * i + 2] < -this.planes[0].constant - 1e-6 || xyz[3 * i + 2] > this.planes[1].constant + 1e-6) continue;
-            const [sx, sy] = this.onScreen(at.fromArray(xyz, 3 * i));
-            if (i > 0 && drawn[i - 1]) {
-                const [dx, dy] = [sx - px, sy - py];
-                const length = dx * dx + dy * dy;
-                const share = length > 0 ? Math.min(Math.max(((x - px) * dx + (y - py) * dy) / length, 0), 1) : 1;
-                const distance = (px + share * dx - x) ** 2 + (py + share * dy - y) ** 2;
-                if (distance < best) {
-                    best = distance;
-                    found = time[i - 1] + share * (time[i] - time[i - 1]);
-                }
-            }
-            [px, py] = [sx, sy];
-        }
-        return found;
     }
 }

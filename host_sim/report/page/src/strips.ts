@@ -3,27 +3,29 @@
 import uPlot from "uplot";
 import { axisColour, css, limitColour, number } from "./colour";
 import { el } from "./dom";
+import { curve, extremes, grouped, sizes, type Group } from "./grouped";
 import { before, type Motion } from "./motion";
 
 export type Over = "time" | "length";
-interface Strip {
-    title: string;
-    unit: string;
-    channel: (axis: number) => number;
-    share: boolean;
+/** What a plot shows of a range of bins. */
+interface Row {
+    options: uPlot.Options;
+    data: (bins: Group[]) => { caption: string; values: (number | null)[][] };
+    caption?: HTMLElement;
+    signed: boolean; // else sizes alone
 }
-
 export class Strips {
     readonly element = el("div", { class: "strips" });
     onPick: (t: number) => void = () => {};
     onHover: (t: number) => void = () => {};
     private plots: uPlot[] = [];
+    private rows: Row[] = []; // one for each plot
     private over: Over = "time";
-    private xs = new Float64Array();
-    private times = new Float64Array();
+    private edges = new Float64Array(); // where bins begin, in time or length, and where the last one ends
     private cursor = 0;
     private range: [number, number] = [0, 1];
     private hidden = new Set<number>();
+    private asked = false; // a new range waits to be drawn
 
     constructor(private readonly motion: Motion) {
         new ResizeObserver(() => this.resize()).observe(this.element);
@@ -47,13 +49,17 @@ export class Strips {
         this.build();
     }
 
+    /** A range that is zoomed follows the cursor. */
     moveTo(t: number): void {
         this.cursor = t;
+        const [a, b] = this.range;
+        const x = this.x(t);
+        if (x < a || x > b) this.zoom(...(x > b && x < 2 * b - a ? [x - 0.1 * (b - a), x + 0.9 * (b - a)] : [x - 0.5 * (b - a), x + 0.5 * (b - a)]) as [number, number]);
         this.plots.forEach((plot) => this.drawCursor(plot));
     }
 
     whole(): void {
-        this.zoom(0, this.xs[this.xs.length - 1] || 1);
+        this.zoom(0, this.whole_x || 1);
     }
 
     shows(axis: number): boolean {
@@ -64,7 +70,10 @@ export class Strips {
     showAxis(axis: number, visible: boolean): void {
         if (visible) this.hidden.delete(axis);
         else this.hidden.add(axis);
-        this.plots.slice(1).forEach((plot) => plot.setSeries(axis + 1, { show: visible }));
+        this.rows.forEach((row, i) => {
+            if (row.options.series.length > 3 * axis + 3 && i > 0) for (const n of [1, 2, 3]) this.plots[i].setSeries(3 * axis + n, { show: visible });
+        });
+        this.refill();
     }
 
     private dark = false;
@@ -74,24 +83,18 @@ export class Strips {
         return this.over === "time" ? t : this.motion.length(t);
     }
 
+    private get whole_x(): number {
+        return this.edges[this.edges.length - 1] ?? 0;
+    }
+
     private build(): void {
         const { report } = this.motion;
         const { strips, machine } = report;
         const n = strips.count;
-        this.times = new Float64Array(2 * n);
-        for (let i = 0; i < n; ++i) {
-            const end = Math.min((i + 1) * strips.bin, this.motion.end);
-            this.times[2 * i] = i * strips.bin + 0.25 * (end - i * strips.bin);
-            this.times[2 * i + 1] = i * strips.bin + 0.75 * (end - i * strips.bin);
-        }
-        this.xs = this.times.map((t) => this.x(t));
-        this.range = [0, this.over === "time" ? this.motion.end : report.summary.length_mm];
+        this.edges = Float64Array.from({ length: n + 1 }, (_, i) => this.x(Math.min(i * strips.bin, this.motion.end)));
+        this.range = [0, this.whole_x];
+        delete this.element.dataset.range;
         const jerky = machine.axes.some((axis) => axis.jerk > 0);
-        const rows: Strip[] = [
-            { title: "velocity", unit: "% of limit", channel: (k) => 1 + 3 * k, share: true },
-            { title: "acceleration", unit: "% of limit", channel: (k) => 2 + 3 * k, share: true },
-            ...(jerky ? [{ title: "jerk", unit: "% of limit", channel: (k: number) => 3 + 3 * k, share: true }] : []),
-        ];
         for (const plot of this.plots) plot.destroy();
         this.plots = [];
         this.element.replaceChildren();
@@ -99,90 +102,139 @@ export class Strips {
             this.element.append(el("p", { class: "note" }, "There is no motion."));
             return;
         }
-        const plots = [this.speed(), ...rows.map((row) => this.shares(row)), ...(report.target.count ? [this.buffers()] : [])];
-        plots.forEach((options, i) => this.frame(options.options, i === plots.length - 1));
-        this.plots = plots.map(({ options, data }) => {
-            const holder = el("div", { class: "strip" }, el("span", { class: "caption" }, options.title!));
+        this.rows = [
+            this.speed(),
+            this.shares("velocity", 1),
+            this.shares("acceleration", 2),
+            ...(jerky ? [this.shares("jerk", 3)] : []),
+            ...(report.target.count ? [this.buffers()] : []),
+        ];
+        this.rows.forEach((row, i) => this.frame(row.options, i === this.rows.length - 1));
+        this.plots = this.rows.map((row) => {
+            row.caption = el("span", { class: "caption" });
+            const holder = el("div", { class: "strip" }, row.caption);
             this.element.append(holder);
-            const plot = new uPlot({ ...options, title: undefined }, data, holder);
+            const plot = new uPlot(row.options, [[]], holder);
             this.steer(plot);
             plot.over.append(el("i", { class: "now-line" }));
             return plot;
         });
         this.resize();
+        this.refill();
     }
 
-    /** The two values of each bin, in the order in which the curve goes on. */
-    private curve(channel: number, factor: number): Float64Array {
-        const { low, high } = this.motion.report.strips;
-        const n = this.motion.report.strips.count;
-        const out = new Float64Array(2 * n);
-        for (let i = 0; i < n; ++i) {
-            const rises = (i + 1 < n ? low[channel][i + 1] + high[channel][i + 1] : 0) >= (i > 0 ? low[channel][i - 1] + high[channel][i - 1] : 0);
-            out[2 * i] = factor * (rises ? low : high)[channel][i];
-            out[2 * i + 1] = factor * (rises ? high : low)[channel][i];
-        }
-        return out;
+    private refill(): void {
+        if (!this.plots.length) return;
+        const bins = grouped(this.edges, this.range);
+        const xs = bins.flatMap(({ first, last, whole }) => {
+            const [a, b] = [this.edges[first], this.edges[last]];
+            return whole ? [(a + b) / 2] : [a + 0.25 * (b - a), a + 0.75 * (b - a)];
+        });
+        const [min, max] = this.range;
+        this.element.dataset.drawn = bins[0]?.whole ? "means" : "bins";
+        this.plots.forEach((plot, i) => {
+            const { caption, values } = this.rows[i].data(bins);
+            this.rows[i].caption!.textContent = caption;
+            plot.batch(() => {
+                plot.setData([xs, ...values] as uPlot.AlignedData, true);
+                plot.setScale("x", { min, max });
+            });
+        });
     }
 
-    private speed(): { options: uPlot.Options; data: uPlot.AlignedData } {
+    private speed(): Row {
         const { strips, summary } = this.motion.report;
-        const feed = Float64Array.from({ length: 2 * strips.count }, (_, i) => strips.feed[i >> 1]);
-        const top = Math.max(summary.max_speed_mm_s, feed.reduce((a, b) => Math.max(a, Math.min(b, 1.6 * summary.max_speed_mm_s)), 0));
+        const top = Math.max(summary.max_speed_mm_s, strips.feed.reduce((a, b) => Math.max(a, Math.min(b, 1.6 * summary.max_speed_mm_s)), 0));
         const ink = this.dark ? "#e8eaed" : "#202124";
+        const none = { points: { show: false }, width: 0 };
+        const unit = this.motion.speedUnit;
         return {
             options: {
-                title: "speed [mm/s]; dashed: programmed feed",
                 width: 100,
                 height: 60,
                 series: [
                     {},
                     { stroke: ink, width: 1.5, points: { show: false } },
                     { stroke: ink, width: 1, dash: [5, 4], points: { show: false }, paths: uPlot.paths.stepped!({ align: 1 }) },
+                    none,
+                    none,
                 ],
+                bands: [{ series: [4, 3], fill: faint(ink) }],
                 scales: { y: { range: [0, 1.12 * (top || 1)] } },
                 hooks: { draw: [(plot) => this.drawBand(plot)] },
             },
-            data: [this.xs, this.curve(0, 1), feed],
+            signed: false,
+            data: (bins) => ({
+                caption: `speed [${unit}]${bins[0]?.whole ? " and its extremes" : ""}; dashed: programmed feed`,
+                values: [
+                    curve(strips, 0, 1, bins),
+                    bins.flatMap(({ first, last, whole }) => (whole ? [strips.feed.subarray(first, last).reduce((a, b) => Math.max(a, b))] : [strips.feed[first], strips.feed[first]])),
+                    ...extremes(strips, 0, 1, bins),
+                ],
+            }),
         };
     }
 
     /** What a target has buffered, and how late it is, over the time of the motion. */
-    private buffers(): { options: uPlot.Options; data: uPlot.AlignedData } {
-        const { count, bin, low, high } = this.motion.report.target;
-        const xs = Float64Array.from({ length: 2 * count }, (_, i) => this.x(Math.min((Math.floor(i / 2) + (i % 2 ? 0.75 : 0.25)) * bin, this.motion.end)));
-        const curve = (c: number) => xs.map((_, i) => 1000 * (i % 2 ? high : low)[c][i >> 1]);
-        const data = [curve(0), curve(1)];
-        const most = data.reduce((a, values) => values.reduce((b, v) => Math.max(b, v), a), 1);
+    private buffers(): Row {
+        const { target, strips } = this.motion.report;
+        const most = Math.max(1, ...[0, 1].map((c) => 1000 * target.high[c].reduce((a, b) => Math.max(a, b), 0)));
+        // Its bins are others: the least that was buffered, and the latest.
+        const at = (c: number, { first, last }: Group) => {
+            const index = (i: number) => Math.min(Math.floor((i * strips.bin) / target.bin), target.count - 1);
+            const part = (c ? target.high : target.low)[c].subarray(index(first), index(last) + 1);
+            return 1000 * part.reduce((a, b) => (c ? Math.max(a, b) : Math.min(a, b)));
+        };
         return {
             options: {
-                title: "motion in the target's buffers [ms]; dashed: how late it is [ms]",
                 width: 100,
                 height: 60,
                 series: [{}, { stroke: "#009e73", width: 1.3, points: { show: false } }, { stroke: this.dark ? "#ff9955" : "#d55e00", width: 1.5, dash: [5, 3], points: { show: false } }],
                 scales: { y: { range: [0, 1.12 * most] } },
             },
-            data: [xs, ...data],
+            signed: false,
+            data: (bins) => ({
+                caption: "motion in the target's buffers [ms]; dashed: how late it is [ms]",
+                values: [0, 1].map((c) => bins.flatMap((group) => (group.whole ? [at(c, group)] : [at(c, group), at(c, group)]))),
+            }),
         };
     }
 
-    private shares(strip: Strip): { options: uPlot.Options; data: uPlot.AlignedData } {
-        const { axes } = this.motion.report.machine;
-        const data = axes.map((axis, k) => (strip.title === "jerk" && !(axis.jerk > 0) ? new Float64Array(this.xs.length) : this.curve(strip.channel(k), 100)));
-        const most = data.reduce((a, values) => values.reduce((b, v) => Math.max(b, Math.abs(v)), a), 100);
+    private shares(name: "velocity" | "acceleration" | "jerk", first: number): Row {
+        const { strips, machine } = this.motion.report;
+        const limited = (k: number) => machine.axes[k][name] > 0;
+        const channels = machine.axes.map((_, k) => first + 3 * k);
+        const most = channels.reduce((a, c, k) => (limited(k) ? strips.high[c].reduce((b, v, i) => Math.max(b, 100 * v, -100 * strips.low[c][i]), a) : a), 100);
         const reach = most > 100.5 ? Math.min(1.1 * most, 1000) : 118;
-        return {
+        const row: Row = {
             options: {
-                title: `${strip.title} [${strip.unit}]`,
                 width: 100,
                 height: 60,
-                series: [{}, ...axes.map((axis, k) => ({ stroke: axisColour(axis.name, k), width: 1.3, points: { show: false }, show: !this.hidden.has(k) }))],
-                scales: { y: { range: [-reach, reach] } },
-                axes: [{}, { splits: () => [-100, 0, 100] }],
+                series: [{}, ...machine.axes.flatMap((axis, k) => {
+                    const show = !this.hidden.has(k);
+                    return [{ stroke: axisColour(axis.name, k), width: 1.3, points: { show: false }, show }, { width: 0, points: { show: false }, show }, { width: 0, points: { show: false }, show }];
+                })],
+                bands: machine.axes.map((axis, k) => ({ series: [3 * k + 3, 3 * k + 2] as [number, number], fill: faint(axisColour(axis.name, k)) })),
+                scales: { y: { range: () => [row.signed ? -reach : 0, reach] } },
+                axes: [{}, { splits: () => (row.signed ? [-100, 0, 100] : [0, 50, 100]) }],
                 hooks: { drawAxes: [(plot) => this.drawLimits(plot)] },
             },
-            data: [this.xs, ...data],
+            signed: true,
+            data: (bins) => {
+                const whole = bins[0]?.whole ?? false;
+                const curves = channels.map((c, k) => (limited(k) ? curve(strips, c, 100, bins) : Array(bins.length * (whole ? 1 : 2)).fill(0)));
+                const means = whole ? channels.map((c) => sizes(strips, c, 100, bins)) : [];
+                // Where an axis goes to and fro within each group, the mean says nothing: then sizes are shown.
+                const total = (all: number[][]) => all.reduce((a, values, k) => (this.hidden.has(k) || !limited(k) ? a : values.reduce((b, v) => b + Math.abs(v), a)), 0);
+                row.signed = !whole || total(curves) > 0.6 * total(means);
+                const none = Array(bins.length * (whole ? 1 : 2)).fill(null);
+                return {
+                    caption: `${name} [% of limit]${!whole ? "" : row.signed ? " and its extremes" : ", the mean of its size"}`,
+                    values: channels.flatMap((c, k) => (row.signed ? [curves[k], ...(limited(k) ? extremes(strips, c, 100, bins) : [none, none])] : [limited(k) ? means[k] : none, none, none])),
+                };
+            },
         };
+        return row;
     }
 
     private frame(options: uPlot.Options, last: boolean): void {
@@ -191,7 +243,7 @@ export class Strips {
         const own = options.axes ?? [];
         const font = "11px system-ui, sans-serif";
         options.axes = [
-            { stroke: ink, grid, ticks: { ...grid, size: 4 }, font, size: last ? 32 : 0, values: last ? undefined : () => [], label: last ? (this.over === "time" ? "time [s]" : "length of the path [mm]") : undefined, labelSize: 14, labelGap: -2, labelFont: font, gap: 3 },
+            { stroke: ink, grid, ticks: { ...grid, size: 4 }, font, size: last ? 32 : 0, values: last ? undefined : () => [], label: last ? (this.over === "time" ? "time [s]" : `length of the path [${this.motion.lengthUnit}]`) : undefined, labelSize: 14, labelGap: -2, labelFont: font, gap: 3 },
             { stroke: ink, grid, ticks: { ...grid, size: 4 }, font, size: 44, gap: 3, ...own[1] },
         ];
         options.legend = { show: false };
@@ -232,7 +284,7 @@ export class Strips {
         let now = -1;
         for (let px = left; px <= left + width; ++px) {
             const value = plot.posToVal(px, "x", true);
-            const code = px < left + width ? limit[before(this.xs, value) >> 1] : -2;
+            const code = px < left + width ? limit[Math.min(before(this.edges, value), limit.length - 1)] : -2;
             if (code === now) continue;
             if (now >= 0) {
                 draw.fillStyle = css(limitColour(now));
@@ -254,7 +306,9 @@ export class Strips {
     private timeAt(plot: uPlot, left: number): number {
         const x = plot.posToVal(left, "x");
         if (this.over === "time") return Math.min(Math.max(x, 0), this.motion.end);
-        return this.times[before(this.xs, x)] ?? 0;
+        const i = before(this.edges, x);
+        const [from, to] = [this.edges[i], this.edges[i + 1] ?? x];
+        return Math.min((i + (to > from ? Math.min((x - from) / (to - from), 1) : 0)) * this.motion.report.strips.bin, this.motion.end);
     }
 
     private steer(plot: uPlot): void {
@@ -305,12 +359,17 @@ export class Strips {
     }
 
     private zoom(a: number, b: number): void {
-        const end = this.over === "time" ? this.motion.end : this.motion.report.summary.length_mm;
+        const end = this.whole_x;
         const span = Math.min(Math.max(b - a, 1e-5 * end), end);
         const from = Math.min(Math.max(a, 0), end - span);
         this.range = [from, from + span];
         this.element.dataset.range = this.range.join(" ");
-        for (const plot of this.plots) plot.setScale("x", { min: from, max: from + span });
+        if (this.asked) return; // of many turns of a wheel the last one
+        this.asked = true;
+        requestAnimationFrame(() => {
+            this.asked = false;
+            this.refill();
+        });
     }
 
     resize(): void {
@@ -327,6 +386,11 @@ export class Strips {
         const i = this.motion.bin(t);
         return [low[channel][i], high[channel][i]];
     }
+}
+
+/** A colour for what lies behind a curve. */
+function faint(colour: string): string {
+    return `${colour}2e`;
 }
 
 /** "12.3", or "10 to 12" where a bin holds more. */
