@@ -82,9 +82,10 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
 void add_gcode_options(CLI::App& app, Job& job) {
     GcodeArguments& gcode = job.run.path.gcode;
     in_group(app, "G-code");
-    app.add_option("--dialect", gcode.dialect,
-                   "linuxcnc, grbl, marlin, fanuc, klipper or auto: whose words they are (default linuxcnc); auto: as the "
-                   "first 200 lines say");
+    app.add_option(
+        "--dialect", gcode.dialect,
+        "linuxcnc, grbl, marlin, fanuc, klipper or auto: whose words they are (default linuxcnc); auto: as the "
+        "first 200 lines say");
     app.add_option("--ignore", gcode.ignore,
                    "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all of the machine's that "
                    "the dialect does not have");
