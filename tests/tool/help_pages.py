@@ -39,7 +39,7 @@ def main():
                 bad.append(f"{command}: the {where} has {sorted(found ^ names)} in the one or in the other alone")
         bad += [f"splinefeed: its page does not name {command}"] if f"\\fBsplinefeed-{command}\\fR(1)" not in said("--man", "splinefeed") else []
     for words, meant in ((("run", "--dialect", ""), {"linuxcnc", "grbl", "marlin", "fanuc", "klipper", "auto"}), (("check", "--dialect", "gr"), {"grbl"}),
-                         (("run", "--start", ""), {"check", "move", "here"}), (("run", "--tr"), {"--trace"}), (("run", "--trace", "/etc/host"), {"/etc/hosts", "/etc/hostname"})):
+                         (("run", "--start", ""), {"check", "move", "here"}), (("run", "--tr"), {"--trace"}), (("run", "--trace", "/dev/nul"), {"/dev/null"}), (("schema", "ma"), {"machine", "map"})):
         if (found := completed(script, *words)) != meant:
             bad.append(f"{words}: {found}")
     for command in commands:
