@@ -28,8 +28,6 @@ def platformio():
     manifest = json.loads((ROOT / "library.json").read_text())
     version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
     check(manifest["version"] == version, f"library.json: version {manifest['version']}; CMakeLists.txt has {version}")
-    of_python = re.search(r'^version = "([^"]+)"', (ROOT / "python/pyproject.toml").read_text(), re.MULTILINE)[1]
-    check(of_python == version, f"python/pyproject.toml: version {of_python}; CMakeLists.txt has {version}")
     build = manifest["build"]
     for name in manifest["export"]["include"] + [build["srcDir"], build["includeDir"]]:
         check((ROOT / name).exists(), f"library.json: there is no {name}")
