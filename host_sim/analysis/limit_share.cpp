@@ -27,7 +27,7 @@ void LimitShare::programmed(std::uint32_t waypoint, double feed_mm_s, bool rapid
     }
 }
 
-void LimitShare::segment(const FeedSegment& segment, const Steered& steered) {
+void LimitShare::segment(const FeedSegment& segment, const OperatorState& steered) {
     while (feeds_.size() > 1 && feeds_.front().waypoint != segment.waypoint) {
         feeds_.pop_front();
     }

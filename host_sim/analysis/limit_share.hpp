@@ -35,7 +35,7 @@ struct LimitShares {
 };
 
 /// What the operator and the program ask for on top of the moves.
-struct Steered {
+struct OperatorState {
     double override_feed = 1.0;             ///< factor of the feeds, not of rapids
     LimitKind standstill = LimitKind::none; ///< hold: the machine brakes for it or stands; dwell
 };
@@ -61,7 +61,7 @@ public:
     /// segments that lead there.
     void programmed(std::uint32_t waypoint, double feed_mm_s, bool rapid = false);
 
-    void segment(const FeedSegment& segment, const Steered& steered = {});
+    void segment(const FeedSegment& segment, const OperatorState& steered = {});
 
     /// Of the last segment.
     [[nodiscard]] const BoundLimits& bound() const noexcept { return bound_; }

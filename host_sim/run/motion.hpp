@@ -118,7 +118,7 @@ private:
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
-    Steered steered_;
+    OperatorState steered_;
     LinearLength length_; // of the path
     ProgramObserver program_;
     BackgroundWork work_; // what is measured, where nobody else looks at it meanwhile

@@ -159,7 +159,7 @@ TEST_CASE("an override, a hold and a dwell are limits of their own") {
     rest.duration_ticks = millisecond;
     LimitShare share(machine);
     share.programmed(0, 100.0 / 3.0);
-    const auto kind_of = [&](const FeedSegment& segment, const Steered& steered) {
+    const auto kind_of = [&](const FeedSegment& segment, const OperatorState& steered) {
         share.segment(segment, steered);
         return share.binding_limit().kind;
     };
