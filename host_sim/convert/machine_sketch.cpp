@@ -57,8 +57,8 @@ std::string source_of(const SourceValue& value) {
 
 std::string plain_name(std::string_view text) {
     std::string out = printable(text);
-    std::ranges::replace_if(
-        out, [](char c) { return c == '"' || c == '\\'; }, '_');
+    std::replace_if(
+        out.begin(), out.end(), [](char c) { return c == '"' || c == '\\'; }, '_');
     return out;
 }
 

@@ -47,7 +47,7 @@ constexpr MachineSource machine_sources[] = {
 std::vector<double> answered_numbers(std::string_view text) {
     std::vector<double> out;
     std::string blanks(text);
-    std::ranges::replace(blanks, ',', ' ');
+    std::replace(blanks.begin(), blanks.end(), ',', ' ');
     for (const std::string_view part : split(blanks, ' ')) {
         double number = 0.0;
         if (part.empty()) {
