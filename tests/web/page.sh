@@ -3,7 +3,7 @@
 # Builds the planner in a page, and tries it in a browser beside the tool: page.sh TOOL PAGE_DIRECTORY (which bundle.sh has filled)
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
-need em++ node
+need em++ node zopfli
 cmake --preset web >build/web.log
 cmake --build --preset web >>build/web.log || { tail -20 build/web.log; exit 1; }
 page=build/web/bin/splinefeed.html
