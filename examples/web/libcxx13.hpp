@@ -24,9 +24,8 @@ template <class To, class From>
 /// bit.
 inline from_chars_result from_chars(const char* first, const char* last, double& out,
                                     chars_format = chars_format::general) {
-    const string text(first, last);
-    const bool is_hexadecimal = text.find_first_of("xX") != string::npos;
-    if (text.empty() || is_hexadecimal || text[0] == '+' || isspace(static_cast<unsigned char>(text[0])) != 0) {
+    const string text(first, find_if(first, last, [](char c) { return c == 'x' || c == 'X'; })); // 0x1 is 0
+    if (text.empty() || text[0] == '+' || isspace(static_cast<unsigned char>(text[0])) != 0) {
         return {first, errc::invalid_argument};
     }
     char* end = nullptr;
