@@ -37,7 +37,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 /// it has none.
 std::string offered(const CLI::Option& option) {
     static const std::regex words("([a-z0-9-]+(?:(?:, | or )[a-z0-9-]+)+)(?:[:;]| \\(|$).*");
-    const std::string text = option.get_description();
+    const std::string& text = option.get_description();
     std::smatch found;
     return std::regex_match(text, found, words) ? std::regex_replace(found.str(1), std::regex(", | or "), " ") : "";
 }

@@ -83,11 +83,11 @@ void MachineAnswers::ask_terminal(const MachineQuestion& question, const Take& t
         if (!read_answer(line)) { // Ctrl-D: no more questions
             tell("\n");
             source_ = AnswerSource::nobody;
-        } else if (trimmed(line).empty()) {
-            return;
-        } else if (const std::string why = take(trimmed(line)); why.empty()) {
-            return;
         } else {
+            const std::string why = trimmed(line).empty() ? std::string() : take(trimmed(line));
+            if (why.empty()) {
+                return;
+            }
             tell("{}: {}\n", in_quotes(trimmed(line)), why);
         }
     }

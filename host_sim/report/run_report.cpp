@@ -245,7 +245,7 @@ Json lines_json(const MotionRecord& record, const ReportFacts& facts) {
         facts.text_file.empty() ? ProgramText{} : read_program_text(facts.text_file, slowest, lines.size());
     std::vector<double> beads; // filament by way
     for (std::size_t i = 0; i < text.extruded.size(); ++i) {
-        const double way_mm = static_cast<double>(lines[i].way_mm);
+        const auto way_mm = static_cast<double>(lines[i].way_mm);
         beads.push_back(way_mm > 0.0 ? static_cast<double>(text.extruded[i]) / way_mm : 0.0);
     }
     Json picked = Json::object();
