@@ -282,6 +282,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     describe_commands(app, job, typed);
     std::vector<const char*> arguments(argv, argv + argc);
     if (argc > 1 && std::string_view(argv[1]) == "help") { // "help run", as other tools have it
+        if (argc > 2 && argv[2][0] != '-' && std::ranges::find(commands, argv[2]) == commands.end()) {
+            refuse_without_command({argv[2]}, "run");
+        }
         arguments.erase(arguments.begin() + 1);
         arguments.push_back("--help");
     }

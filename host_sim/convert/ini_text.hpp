@@ -18,6 +18,13 @@ struct IniRules {
     bool last_wins = false; ///< of a key that is there twice; else the first does
 };
 
+/// What is no key of a machine file, and what is said of it.
+struct IniRest {
+    std::string_view section;
+    std::string_view key;
+    std::string_view text;
+};
+
 class IniText {
 public:
     IniText(std::string_view text, const IniRules& rules);

@@ -27,12 +27,7 @@ struct PrinterKind {
 constexpr PrinterKind printer_kinds[] = {
     {"cartesian", "xyz"}, {"corexy", "z"}, {"corexz", "y"}, {"hybrid_corexy", "yz"}, {"hybrid_corexz", "yz"}};
 
-struct PrinterRest {
-    std::string_view section;
-    std::string_view key;
-    std::string_view text;
-};
-constexpr PrinterRest printer_rest[] = {
+constexpr IniRest printer_rest[] = {
     {"printer", "square_corner_velocity", ""}, // corner_text()
     {"printer", "minimum_cruise_ratio", "no such limit; max_jerk_mm_s3 makes short moves smooth"},
     {"printer", "max_accel_to_decel", "no such limit; max_jerk_mm_s3 makes short moves smooth"},
@@ -183,7 +178,7 @@ private:
 
     void add_rest(MachineSketch& out) const {
         add_includes(config_, out);
-        for (const PrinterRest& rest : printer_rest) {
+        for (const IniRest& rest : printer_rest) {
             if (const SourceValue* const value = config_.find(rest.section, rest.key)) {
                 out.rest.emplace_back(source_of(*value), rest.text.empty() ? corner_text(*value) : rest.text);
             }

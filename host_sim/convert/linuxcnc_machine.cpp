@@ -37,12 +37,7 @@ constexpr std::string_view scales[] = {"SCALE", "STEP_SCALE", "INPUT_SCALE", "EN
 /// Times of all joints' step lines [ns]; the longest counts.
 constexpr std::string_view joint_step_keys[] = {"STEPLEN", "STEPSPACE", "DIRSETUP", "DIRHOLD"};
 
-/// What is no key of a machine file. `section`: "" of an axis or a joint.
-struct IniRest {
-    std::string_view section;
-    std::string_view key;
-    std::string_view text;
-};
+// Without a section: of each axis and joint.
 constexpr IniRest ini_rest[] = {
     {"TRAJ", "MAX_LINEAR_ACCELERATION", "the axes limit the acceleration; there is no limit along the path"},
     {"", "BACKLASH", "backlash is not compensated"},
