@@ -310,10 +310,6 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             const FieldIndex index =
                 named_field(check, entry, "fields", profile, written ? FieldUse::write : FieldUse::read);
             const RegisterField& field = profile.fields[index];
-            if (field.table != RegisterTable::holding) {
-                check.fail(entry, "field {} is of {}; a group is of holding_registers", in_quotes(field.name),
-                           table_names[static_cast<std::size_t>(field.table)]);
-            }
             const std::size_t next = group.fields.empty() ? field.address : group.address + group.registers;
             if (field.address != next) {
                 check.fail(entry, "field {} begins at {}, but the group goes on at {}; one frame has no gaps",

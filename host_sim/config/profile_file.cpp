@@ -95,6 +95,16 @@ void require_complete(const TomlChecker& check, const DriveProfile& profile) {
     }
 }
 
+// What nobody would heed.
+void refuse_unused(const TomlChecker& check, const toml::table& root, StreamWay stream) {
+    constexpr std::string_view of_axes[] = {"group", "watchdog", "init", "identity", "stays_on"};
+    for (const std::string_view key : of_axes) {
+        if (const toml::node* node = root.get(key); node != nullptr && stream == StreamWay::speed) {
+            check.fail(*node, "{} is for drives that move an axis; with stream = \"speed\" leave it out", key);
+        }
+    }
+}
+
 DriveProfile profile_of(const toml::table& root, const std::string& file) {
     const TomlChecker check(file, "docs/reference/profiles.md");
     check.require_known(root, profile_table);
@@ -114,6 +124,7 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
     if (profile.axes > 1 && profile.stream != StreamWay::pvt) {
         check.fail(*root.get("axes"), "axes beyond 1 are for stream = \"pvt\" alone; leave axes out");
     }
+    refuse_unused(check, root, profile.stream);
     read_link(check, root, profile);
     read_fields(check, root, profile);
     read_groups(check, root, profile);
