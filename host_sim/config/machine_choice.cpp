@@ -2,6 +2,7 @@
 #include "host_sim/config/machine_choice.hpp"
 
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/config/doubtful_numbers.hpp"
 #include "host_sim/config/machine_file.hpp"
 
 #include <cstdlib>
@@ -54,10 +55,13 @@ MachineDescription choose_machine(const MachineChoice& choice) {
 }
 
 std::string note_of(const MachineChoice& choice, const MachineDescription& machine) {
-    return choice.file.empty() && !machine.file.empty()
-               ? fmt::format("the machine is that of {}; -m names another one, -m default the default one",
-                             machine.file)
-               : std::string();
+    std::vector<std::string> notes = doubtful_numbers(machine);
+    if (choice.file.empty() && !machine.file.empty()) {
+        notes.insert(
+            notes.begin(),
+            fmt::format("the machine is that of {}; -m names another one, -m default the default one", machine.file));
+    }
+    return fmt::format("{}", fmt::join(notes, "; "));
 }
 
 } // namespace splinefeed::host

@@ -20,7 +20,8 @@ struct MachineChoice {
 /// InputError, and UsageError for a setting.
 [[nodiscard]] MachineDescription choose_machine(const MachineChoice& choice);
 
-/// What a user has to know of the choice, a sentence; empty: nothing. @param machine  as chosen
+/// What a user has to know of the choice: where it is from, and numbers that few machines have; empty: nothing. @param
+/// machine  as chosen
 [[nodiscard]] std::string note_of(const MachineChoice& choice, const MachineDescription& machine);
 
 } // namespace splinefeed::host

@@ -114,6 +114,9 @@ def a_doubt(folder):
     said = run(folder, "machine", "--check", "fast.toml").stdout.splitlines()
     check(said == ["fast.toml: nothing is wrong; its axes are x",
                    "fast.toml: warning: max_velocity_mm_s of x is 8000: is that mm/min? Then it is 133.333333"], f"a doubt: {said}")
+    (folder / "part.csv").write_text("x\n0\n10\n")
+    told = run(folder, "plan", "part.csv", "-m", "fast.toml", "--no-advice").stderr
+    check("note: max_velocity_mm_s of x is 8000: is that mm/min? Then it is 133.333333" in told, f"a doubt of plan: {told}")
 
 
 def trials(folder):
