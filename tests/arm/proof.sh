@@ -54,7 +54,7 @@ forbids_all() {
 
 # run IMAGE [OPTION...]: what it says on the board of its processor, or on the one that `board` names.
 run() {
-    timeout 120 qemu-system-arm -M "${board:-$(board_of "$cpu")}" "${@:2}" -nographic -monitor none -serial none \
+    timeout 1200 qemu-system-arm -M "${board:-$(board_of "$cpu")}" "${@:2}" -nographic -monitor none -serial none \
         -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host -kernel "$1"
 }
 

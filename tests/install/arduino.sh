@@ -24,7 +24,7 @@ grep --quiet first_constructor "$core/memory_map.ld"
 arduino-builder -compile -hardware /usr/share/arduino-builder -hardware "$scratch/hardware" -tools /usr/bin \
     -libraries "$scratch/libraries" -fqbn splinefeed:arm:bare -build-path "$scratch/build" -warnings all \
     "$scratch/libraries/splinefeed/examples/step_dir/step_dir.ino"
-said=$(timeout 120 qemu-system-arm -M mps2-an386 -nographic -monitor none -serial none -chardev stdio,id=host \
+said=$(timeout 1200 qemu-system-arm -M mps2-an386 -nographic -monitor none -serial none -chardev stdio,id=host \
     -semihosting-config enable=on,target=native,chardev=host -kernel "$scratch/build/step_dir.ino.elf")
 echo "$said"
 # 20, 10 and -5 mm, 80 steps a mm.

@@ -143,8 +143,8 @@ done
 sed -n 's/^\(ALARM:[0-9]*\).*/\1/p' /out/said | tr '\n' ' ' >/out/alarms
 
 under_way 'G90 G1 X5 F3000'
-mark estop
 pull ESTOP up
+mark estop # behind it: to pull takes processes, and those take longer than the port does
 hears '^ALARM:10'
 level ENABLE >/out/enable
 usleep 300000
