@@ -65,8 +65,9 @@ files=("$work"/{machine,short,lines,outputs,spindle}.toml "$work"/*.{csv,ngc})
 export GPIO_VM_TIME=virtual GPIO_VM_SECONDS=600 # time of the machine; a limit in time of a busy host
 $vm/run.sh $cache "$work/first" $vm/runs_guest.sh "${programs[0]}" "${files[@]}" "$work/all" &
 first=$!
-$vm/run.sh $cache "$work/served" $vm/serve_guest.sh "${programs[0]}" "$work"/{outputs,lines}.toml
-python3 $vm/serve_judge.py "$work/served"
+served=0 # what failed there does not end the others
+$vm/run.sh $cache "$work/served" $vm/serve_guest.sh "${programs[0]}" "$work"/{outputs,lines}.toml || served=$?
+if ((served == 0)); then python3 $vm/serve_judge.py "$work/served" || served=$?; fi
 if ((${#programs[@]} > 1)); then
     $vm/run.sh $cache "$work/second/out" $vm/runs_guest.sh "${programs[1]}" "${files[@]}"
     ldd "${programs[1]}" | grep libgpiod
@@ -76,3 +77,4 @@ wait $first
 ldd "${programs[0]}" | grep libgpiod
 cat "$work/first/link.txt"
 python3 $vm/runs_judge.py "$work/first"
+exit $served
