@@ -120,7 +120,8 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         profile_segment_.stops =
             profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1 || !(window_.at(1).entry_sq > S{});
     }
-    SPLINEFEED_ASSERT(stretch.from < stretch.to || rest_to_rest_); // the machine comes on
+    // The machine comes on; or it is so slow that it stops within a last digit of where it is.
+    SPLINEFEED_ASSERT(stretch.from < stretch.to || rest_to_rest_ || profile_segment_.stops);
 }
 
 // The exit nearest to the wanted one from the start of the front cell.
