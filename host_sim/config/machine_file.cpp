@@ -123,12 +123,15 @@ private:
             return;
         }
         const toml::table& table = *part;
-        const toml::node* engine = table.get("engine");
-        const bool intervals = engine == nullptr || is_first(*engine, step_line_table.row("engine"));
-        settings.tick_us = intervals ? 0.0 : 10.0;
+        constexpr double ticks_us[] = {0.0, 10.0, 40.0}; // of the engines
+        const toml::node* node = table.get("engine");
+        const std::size_t engine = node == nullptr ? 0 : check_.choice(*node, "engine", engine_names);
+        const bool intervals = engine == 0;
+        settings.interpolated = engine == 2;
+        settings.tick_us = ticks_us[engine];
         if (const toml::node* tick = table.get("tick_us")) {
             if (intervals) {
-                check_.fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
+                check_.fail(*tick, "tick_us is of engine = 'fixed-rate' or 'interpolated'; leave it out, or state one");
             }
             settings.tick_us = check_.finite(*tick, "tick_us");
             if (StepTiming::make({.tick_us = settings.tick_us}).error() != Error::none || settings.tick_us == 0.0) {

@@ -40,7 +40,7 @@ consteval FileKey tolerance_key(std::string_view key, std::string_view sentence)
     throw "there is no such tolerance";
 }
 
-inline constexpr std::string_view engine_names[] = {"intervals", "fixed-rate"};
+inline constexpr std::string_view engine_names[] = {"intervals", "fixed-rate", "interpolated"};
 inline constexpr std::string_view axis_kinds[] = {"linear", "rotary"};
 inline constexpr std::string_view axis_name_letters[] = {"x", "y", "z", "a", "b", "c"};
 inline constexpr std::string_view on_or_off[] = {"on", "off"};
@@ -59,7 +59,7 @@ inline constexpr FileTable path_table{"[path]", path_keys, {}};
 
 inline constexpr FileKey step_line_keys[] = {
     choice_key("engine", engine_names, "What makes the pulses; default intervals."),
-    number_key("tick_us", 0.25, 1000, "us", "Of the engine fixed-rate: a multiple of 0.25; default 10."),
+    number_key("tick_us", 0.25, 1000, "us", "Of fixed-rate and interpolated: a multiple of 0.25; default 10 and 40."),
     step_time_key("step_length_us", "Least length of a pulse; default 2."),
     step_time_key("step_space_us", "Least time between two pulses; default 2."),
     step_time_key("direction_setup_us", "From a change of direction to the step that needs it; default 5."),
@@ -68,7 +68,7 @@ inline constexpr FileKey step_line_keys[] = {
 };
 inline constexpr FileTable step_line_table{
     "[step]", step_line_keys,
-    R"({"dependencies": {"tick_us": {"properties": {"engine": {"const": "fixed-rate"}, "tick_us": {"multipleOf": 0.25}},
+    R"({"dependencies": {"tick_us": {"properties": {"engine": {"enum": ["fixed-rate", "interpolated"]}, "tick_us": {"multipleOf": 0.25}},
                                      "required": ["engine"]}}})"};
 
 inline constexpr FileKey switched_keys[] = {

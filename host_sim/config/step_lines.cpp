@@ -26,8 +26,8 @@ void check(const MachineDescription& machine, unsigned k, const StepTiming& timi
                          "axis {} makes {:.0f} steps/s at {} mm/s, and its lines carry {:.0f}; lower the "
                          "velocity or steps_per_mm, or shorten {} in [step]",
                          name, demand.steps_per_s, velocity, timing.most_steps_per_s(),
-                         timing.grid > 1 ? "tick_us, step_length_us and step_space_us"
-                                         : "step_length_us and step_space_us");
+                         timing.grid > 1 || timing.tick > 1 ? "tick_us, step_length_us and step_space_us"
+                                                            : "step_length_us and step_space_us");
     default:
         throw InputError(machine.file, 0,
                          "axis {} needs {:.3f} us from a step to one back, in which {:.0f} steps/s^2 go {:.4f} "

@@ -51,6 +51,7 @@ void run_engine(const char* name, const Engine& engine) {
 void run_pulses() {
     run_engine("pulses at solved intervals", StepIntervals(axes));
     run_engine("pulses at a fixed rate", FixedRate(axes, tick_ticks));
+    run_engine("pulses between ticks", InterpolatedSteps(axes, 320));
 }
 
 } // namespace bits

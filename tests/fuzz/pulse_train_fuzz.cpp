@@ -2,6 +2,7 @@
 // Any chain of feed segments to both engines: all of them end, in order of time, at the count of the last position.
 #include "fuzz/bytes.hpp"
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
+#include "splinefeed/s5_pulse_train/interpolated_steps.hpp"
 #include "splinefeed/s5_pulse_train/step_intervals.hpp"
 
 #include <cstdlib>
@@ -80,6 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!segments.empty()) {
         require_end(StepIntervals(1), segments);
         require_end(FixedRate(1, tick_ticks), segments);
+        require_end(InterpolatedSteps(1, tick_ticks), segments);
     }
     return 0;
 }

@@ -11,4 +11,6 @@ TEST_CASE("Any pulse train: a timing with a grid has the engine that steps on it
     REQUIRE(grid.error() == Error::none);
     CHECK(std::holds_alternative<PulseTrain<StepIntervals>>(make_pulse_train(3, crossings.value())));
     CHECK(std::holds_alternative<PulseTrain<FixedRate>>(make_pulse_train(3, grid.value())));
+    const Result<StepTiming> between = StepTiming::make({.tick_us = 40.0, .interpolated = true});
+    CHECK(std::holds_alternative<PulseTrain<InterpolatedSteps>>(make_pulse_train(3, between.value())));
 }

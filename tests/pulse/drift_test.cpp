@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counts after many steps: nothing is summed but integers.
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
+#include "splinefeed/s5_pulse_train/interpolated_steps.hpp"
 #include "splinefeed/s5_pulse_train/step_intervals.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
@@ -72,6 +73,11 @@ TEST_CASE("After any number of steps the count is exact and the last step is whe
     CHECK(ticked.steps == steps);
     CHECK(ticked.one_way);
     CHECK(std::fabs(static_cast<long double>(ticked.last_tick) - tick) <= 12.0L);
+    InterpolatedSteps interpolated(1, 320);
+    const Ran between = run(interpolated, start, way, segments);
+    CHECK(between.steps == steps);
+    CHECK(between.one_way);
+    CHECK(std::fabs(static_cast<long double>(between.last_tick) - tick) <= 1.0L);
 }
 
 TEST_CASE("Steps are the same wherever the machine stands") {
@@ -82,6 +88,8 @@ TEST_CASE("Steps are the same wherever the machine stands") {
         StepIntervals there(1);
         FixedRate ticked_here(1, 80);
         FixedRate ticked_there(1, 80);
+        InterpolatedSteps between_here(1, 320);
+        InterpolatedSteps between_there(1, 320);
         Step a;
         Step b;
         const auto compare = [&](auto& one, auto& other) {
@@ -99,6 +107,9 @@ TEST_CASE("Steps are the same wherever the machine stands") {
             ticked_here.take(running(5 + i * way, way));
             ticked_there.take(running(5 + i * way + away, way));
             compare(ticked_here, ticked_there);
+            between_here.take(running(5 + i * way, way));
+            between_there.take(running(5 + i * way + away, way));
+            compare(between_here, between_there);
         }
     }
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The path from the edges of path61 alone, by a script that knows nothing of the engines.
 find_package(Python3 COMPONENTS Interpreter QUIET)
-foreach(case "intervals" "fixed rate" "on edges" "two motors")
+foreach(case "intervals" "fixed rate" "interpolated" "on edges" "two motors")
     string(REPLACE " " "_" name ${case})
     if(NOT Python3_FOUND)
         skipped_test(pulse_edges_${name} "there is no Python 3 (Debian: apt-get install python3)")

@@ -18,6 +18,7 @@ INTERVALS = {"step": "", "axis": "", "resolution_ns": 125, "setup": 5000, "hold"
 CASES = {
     "intervals": INTERVALS,
     "fixed rate": {**INTERVALS, "step": "engine = 'fixed-rate'\ntick_us = 5\n", "resolution_ns": 2500, "high": 5000, "low": 5000},
+    "interpolated": {**INTERVALS, "step": "engine = 'interpolated'\n", "resolution_ns": 125},
     "on edges": {**INTERVALS, "step": "step_on_edge = true\ndirection_setup_us = 1.5\ndirection_hold_us = 0\n",
                  "setup": 1500, "hold": 0, "edge": True},
     "two motors": {**INTERVALS, "axis": "motors = 2\ninvert_step = true\ninvert_direction = [false, true]\n", "motors": 2,

@@ -56,6 +56,13 @@ TEST_CASE("the edges of a motion are the same after thousands of years") {
         CounterSeam::started(old, late);
         require_shifted(edges_of(fresh, timing, segments), edges_of(old, timing, segments), late);
     }
+    {
+        const StepTiming timing = StepTiming::make({.tick_us = 40.0, .interpolated = true}).value();
+        const InterpolatedSteps fresh(axes, timing.tick);
+        InterpolatedSteps old(axes, timing.tick);
+        CounterSeam::started(old, late - 2 * timing.tick);
+        require_shifted(edges_of(fresh, timing, segments), edges_of(old, timing, segments), late);
+    }
     const StepTiming timing = StepTiming::make({.tick_us = 5.0}).value();
     const FixedRate fresh(axes, timing.grid);
     FixedRate old(axes, timing.grid);

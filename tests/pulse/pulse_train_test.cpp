@@ -108,9 +108,14 @@ void require_train(const E& engine, const StepTiming& timing, const std::vector<
     tally.steps += seen;
 }
 
-StepSettings random_settings(RandomSegments& random, bool fixed_rate) {
+enum class Kind { intervals, fixed_rate, interpolated };
+
+StepSettings random_settings(RandomSegments& random, Kind kind) {
     StepSettings settings;
-    settings.tick_us = fixed_rate ? 0.25 * (1 + random.below(80)) : 0.0;
+    settings.interpolated = kind == Kind::interpolated;
+    settings.tick_us = kind == Kind::fixed_rate     ? 0.25 * (1 + random.below(80))
+                       : kind == Kind::interpolated ? 0.25 * (1 + random.below(200))
+                                                    : 0.0;
     settings.step_length_us = random.decades(0.2, 20.0);
     settings.step_space_us = random.decades(0.2, 20.0);
     settings.direction_setup_us = random.below(5) == 0 ? 0.0 : random.decades(0.2, 60.0);
@@ -129,11 +134,11 @@ TEST_CASE("Edges keep every time, and every step that they make is the engine's,
     const auto few = [&] {
         return tally.runs <= 8 || tally.steps <= 1000;
     };
-    for (int round = 0; round < rounds(35) || (few() && round < 1000); ++round) {
+    for (int round = 0; round < rounds(50) || (few() && round < 1000); ++round) {
         CAPTURE(round);
         const int axes = 1 + random.below(4);
-        const bool fixed_rate = random.below(2) == 0;
-        const StepSettings settings = random_settings(random, fixed_rate);
+        const auto kind = static_cast<Kind>(random.below(3));
+        const StepSettings settings = random_settings(random, kind);
         const Result<StepTiming> timing = StepTiming::make(settings);
         REQUIRE(timing.has_value());
         const double rate = timing->most_steps_per_s() * random.decades(0.02, 0.9);
@@ -141,8 +146,10 @@ TEST_CASE("Edges keep every time, and every step that they make is the engine's,
         if (!timing->allows(demand_of(segments, axes)).ok()) {
             continue;
         }
-        if (fixed_rate) {
+        if (kind == Kind::fixed_rate) {
             require_train(FixedRate(axes, timing->grid), *timing, segments, axes, tally);
+        } else if (kind == Kind::interpolated) {
+            require_train(InterpolatedSteps(axes, timing->tick), *timing, segments, axes, tally);
         } else {
             require_train(StepIntervals(axes), *timing, segments, axes, tally);
         }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Both engines against the crossings of the cubics, computed in long double.
+// The engines against the crossings of the cubics, computed in long double.
 #include "ideal_motion.hpp"
 #include "random_segments.hpp"
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
+#include "splinefeed/s5_pulse_train/interpolated_steps.hpp"
 #include "splinefeed/s5_pulse_train/step_intervals.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
@@ -109,14 +110,45 @@ Found require_ideal(const std::vector<Step>& steps, const std::vector<FeedSegmen
     return found;
 }
 
+/// How far the motion is at most from the lines between its places at ticks [counts]: a h^2 / 8, and v h / 4 for a jump
+/// of the velocity by v.
+Real off_lines(const std::vector<FeedSegment>& segments, int axes, std::uint32_t tick) {
+    Real most = 0.0L;
+    for (const unsigned k : indices(axes)) {
+        Real before = static_cast<Real>(segments.front().start_velocity[k]) / segments.front().duration_ticks;
+        Real curved = 0.0L;
+        Real jumped = 0.0L;
+        for (const FeedSegment& s : segments) {
+            const Real v0 = static_cast<Real>(s.start_velocity[k]) / s.duration_ticks;
+            const Real v1 = static_cast<Real>(s.end_velocity[k]) / s.duration_ticks;
+            const Real mean = static_cast<Real>(s.end[k] - s.start[k]) / s.duration_ticks;
+            // Of a cubic the acceleration is largest at an end.
+            for (const Real change : {6.0L * mean - 4.0L * v0 - 2.0L * v1, 4.0L * v1 + 2.0L * v0 - 6.0L * mean}) {
+                curved = std::max(curved, std::fabs(change) / s.duration_ticks);
+            }
+            jumped = std::max(jumped, std::fabs(v0 - before));
+            before = v1;
+        }
+        // A tick may see the joints of several short segments.
+        const Real joints =
+            1.0L + static_cast<Real>(tick) / std::min_element(segments.begin(), segments.end(), [](auto& a, auto& b) {
+                                                 return a.duration_ticks < b.duration_ticks;
+                                             })->duration_ticks;
+        most = std::max(most, curved * tick * tick / 8.0L + joints * jumped * tick / 4.0L);
+    }
+    return most / units_per_count + 0x1p-29L;
+}
+
 } // namespace
 
-TEST_CASE("Steps of smooth motion are where the cubics cross, with both engines") {
+TEST_CASE("Steps of smooth motion are where the cubics cross, with each engine") {
     const std::uint64_t seed = random_seed();
     CAPTURE(seed);
     RandomSegments random(seed);
     Real worst = 0.0L;
+    Real worst_between = 0.0L;
     std::size_t total = 0;
+    int straight = 0;
     for (int round = 0; round < rounds(12) || (total <= 100 && round < 1000); ++round) {
         CAPTURE(round);
         const int axes = 1 + random.below(3);
@@ -130,10 +162,17 @@ TEST_CASE("Steps of smooth motion are where the cubics cross, with both engines"
         total += solved.size();
         const std::vector<Step> ticked = steps_of(FixedRate(axes, tick), segments);
         require_ideal(ticked, segments, axes, {0.5L * tick, 0x1p-34L, tick});
+        const std::uint32_t sampled = tick * static_cast<std::uint32_t>(1 + random.below(14)); // up to 6.9 counts in it
+        const Real blur = off_lines(segments, axes, sampled);
+        const std::vector<Step> interpolated = steps_of(InterpolatedSteps(axes, sampled), segments);
+        worst_between = std::max(worst_between, require_ideal(interpolated, segments, axes, {1.0L, blur}).worst_ticks);
+        straight += blur < 0.01L ? 1 : 0;
     }
-    CAPTURE(static_cast<double>(worst), total);
+    CAPTURE(static_cast<double>(worst), static_cast<double>(worst_between), total, straight);
     CHECK(total > 100);
     CHECK(worst > 0.3L); // it is measured
+    CHECK(worst_between > 0.1L);
+    CHECK(straight > 0); // a bound that says something
 }
 
 TEST_CASE("Steps of any chain of cubics are where they cross, with reversals, jumps and changing durations") {
@@ -153,6 +192,9 @@ TEST_CASE("Steps of any chain of cubics are where they cross, with reversals, ju
         total += solved.size();
         const std::vector<Step> ticked = steps_of(FixedRate(axes, tick), segments);
         require_ideal(ticked, segments, axes, {0.5L * tick, 0x1p-34L, tick});
+        const std::uint32_t sampled = tick * static_cast<std::uint32_t>(1 + random.below(14));
+        require_ideal(steps_of(InterpolatedSteps(axes, sampled), segments), segments, axes,
+                      {1.0L, off_lines(segments, axes, sampled)});
     }
     CAPTURE(total, touches);
     CHECK(total > 100);

@@ -56,6 +56,11 @@ TEST_CASE("Times that no drive asks for are refused") {
     CHECK(refusal({.tick_us = 0.3}) == Error::step_tick_out_of_range);
     CHECK(refusal({.tick_us = 0.125}) == Error::step_tick_out_of_range);
     CHECK(refusal({.tick_us = 0.25}) == Error::none);
+    for (const double bad : {0.0, 0.3, 1000.25}) {
+        CHECK(refusal({.tick_us = bad, .interpolated = true}) == Error::step_tick_out_of_range);
+    }
+    CHECK(refusal({.tick_us = 1000.0, .interpolated = true}) == Error::none);
+    CHECK(refusal({.tick_us = 0.25, .interpolated = true}) == Error::none);
     CHECK(refusal({.tick_us = 1000.0, .step_length_us = 1000.0}) == Error::none);
 }
 

@@ -41,7 +41,7 @@ struct CounterSeam {
     static void pushed(Curve& curve, std::uint32_t waypoints) {
         curve.pushed_ = waypoints;
     }
-    /// Start of the next segment of a StepIntervals [ticks].
+    /// Start of the next segment of a StepIntervals, of the tick before of an InterpolatedSteps [ticks].
     template <class Engine>
     static void started(Engine& engine, std::int64_t ticks) {
         engine.start_ = ticks;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// PulseTrain: turns feed segments into edges of step and direction lines, with either engine. It uses integers only and
-// does not allocate.
+// PulseTrain: turns feed segments into edges of step and direction lines, with any of the engines. It uses integers
+// only and does not allocate.
 #pragma once
 
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
+#include "splinefeed/s5_pulse_train/interpolated_steps.hpp"
 #include "splinefeed/s5_pulse_train/step_dir_sequencer.hpp"
 #include "splinefeed/s5_pulse_train/step_intervals.hpp"
 

@@ -17,7 +17,8 @@ struct StepDemand {
 
 /// The settings as a machine file states them [us].
 struct StepSettings {
-    double tick_us = 0.0;            ///< tick of the fixed-rate engine; 0: the engine is StepIntervals
+    double tick_us = 0.0;            ///< tick of FixedRate or InterpolatedSteps; 0: the engine is StepIntervals
+    bool interpolated = false;       ///< the engine is InterpolatedSteps
     double step_length_us = 2.0;     ///< least duration of a pulse
     double step_space_us = 2.0;      ///< least time between two pulses
     double direction_setup_us = 5.0; ///< least time from a change of direction to the step that needs it
@@ -45,6 +46,7 @@ inline constexpr StepTime step_times[] = {
 /// are at ticks.
 struct StepTiming {
     std::uint32_t grid = 1; ///< all instants are multiples of it
+    std::uint32_t tick = 0; ///< of InterpolatedSteps; 0: another engine
     std::uint32_t high = 0;
     std::uint32_t low = 0;
     std::uint32_t setup = 0;
@@ -71,12 +73,13 @@ struct StepTiming {
     /// The highest step rate that keeps step_gap() [1/s]. An instant may be wrong by a tick of 1/8 us; on a grid it is
     /// the nearest instant of the grid.
     [[nodiscard]] constexpr double most_steps_per_s() const noexcept {
-        return 8e6 / (step_gap() + (grid > 1 ? 1.0 : 2.0));
+        const double gap = step_gap() + (grid > 1 ? 1.0 : 2.0);
+        return 8e6 / (gap > tick / 7.0 ? gap : tick / 7.0); // InterpolatedSteps: 7 counts in a tick
     }
     /// How far an axis may be beyond half a step when the two steps of a reversal, closer than turn_gap(), are left
     /// out. It is the distance out and back in that time [steps].
     [[nodiscard]] constexpr double most_left_out(double steps_per_s2) const noexcept {
-        const double seconds = (turn_gap() + 2.0 * grid) / 8e6;
+        const double seconds = (turn_gap() + 2.0 * (grid > tick ? grid : tick)) / 8e6;
         return steps_per_s2 * seconds * seconds / 8.0;
     }
 
@@ -112,6 +115,13 @@ constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noex
             return Error::step_tick_out_of_range;
         }
         timing.grid = 2 * quarters;
+    }
+    if (settings.interpolated) {
+        if (timing.grid == 1) {
+            return Error::step_tick_out_of_range;
+        }
+        timing.tick = timing.grid;
+        timing.grid = 1;
     }
     const auto rounded_up = [&timing](double us) {
         const double grids = us * ticks_per_us / timing.grid;

@@ -30,6 +30,7 @@ template <unsigned Axes>
 class TickDda {
 public:
     static_assert(Axes >= 1 && Axes <= static_cast<unsigned>(max_axes));
+    using Steps = StepBits;
 
     /// Sets the position before the first part.
     constexpr void stand(const PerAxis<std::int32_t>& count) noexcept {

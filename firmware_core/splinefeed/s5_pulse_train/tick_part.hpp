@@ -8,8 +8,9 @@
 
 namespace splinefeed {
 
-/// The difference table of a cubic at successive ticks, in 2^-62 count and modulo 4 counts. Half a count is added to
-/// `position`: its two highest bits then belong to the count at which the axis stands.
+/// The difference table of a cubic at successive ticks, in 2^-62 count and modulo 4 counts; for SampleDda in 2^-60
+/// count and modulo 16. Half a count is added to `position`: its highest bits then belong to the count at which the
+/// axis stands.
 struct DifferenceTable {
     static constexpr int count_shift = 62;
 

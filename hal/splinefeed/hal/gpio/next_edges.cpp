@@ -46,8 +46,11 @@ bool NextEdges::next(bool complete) noexcept {
         }
         return true;
     };
-    auto* const intervals = std::get_if<PulseTrain<StepIntervals>>(&train_);
-    return intervals != nullptr ? next_of(*intervals) : next_of(*std::get_if<PulseTrain<FixedRate>>(&train_));
+    if (auto* const intervals = std::get_if<PulseTrain<StepIntervals>>(&train_)) {
+        return next_of(*intervals);
+    }
+    auto* const fixed = std::get_if<PulseTrain<FixedRate>>(&train_);
+    return fixed != nullptr ? next_of(*fixed) : next_of(*std::get_if<PulseTrain<InterpolatedSteps>>(&train_));
 }
 
 bool NextEdges::gather(PinChanges& lines, bool complete) noexcept {
