@@ -7,16 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 need node npm
 page=$1/report_page
 source=host_sim/report/page
-mkdir -p "$page"
-if ! cmp --silent $source/package-lock.json "$page/installed.json" || [[ ! -d $page/node_modules ]]; then
-    cp $source/package.json $source/package-lock.json $source/.npmrc "$page"
-    if ! (cd "$page" && npm ci --ignore-scripts --silent) >"$page/npm.txt" 2>&1; then
-        if grep -qE 'EAI_AGAIN|ENOTFOUND|ECONNREFUSED|ETIMEDOUT|network' "$page/npm.txt"; then skip "npm has no network"; fi
-        cat "$page/npm.txt"
-        exit 1
-    fi
-    cp $source/package-lock.json "$page/installed.json"
-fi
+npm_packages $source "$page"
 rm -rf "$page/src"
 cp -r $source/src $source/build.mjs $source/tsconfig.json "$page"
 (cd "$page" && node node_modules/typescript/bin/tsc && node build.mjs "made.html")

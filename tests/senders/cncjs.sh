@@ -7,15 +7,6 @@ source tests/arm/build.sh
 
 need node npm python3 arm-none-eabi-g++ qemu-system-arm
 folder=$1/cncjs
-mkdir -p "$folder"
-if ! cmp --silent tests/senders/package-lock.json "$folder/installed.json" || [[ ! -d $folder/node_modules ]]; then
-    cp tests/senders/package.json tests/senders/package-lock.json tests/senders/.npmrc "$folder"
-    if ! (cd "$folder" && npm ci --ignore-scripts --silent) >"$folder/npm.txt" 2>&1; then
-        if grep -qE 'EAI_AGAIN|ENOTFOUND|ECONNREFUSED|ETIMEDOUT|network' "$folder/npm.txt"; then skip "npm has no network"; fi
-        cat "$folder/npm.txt"
-        exit 1
-    fi
-    cp tests/senders/package-lock.json "$folder/installed.json"
-fi
+npm_packages tests/senders "$folder"
 build_images cortex-m3 build/arm-cortex-m3
 exec tests/senders/cncjs_runs.mjs "$folder" "$1/bin/splinefeed" build/arm-cortex-m3/bin/firmware_lm3s6965.elf

@@ -18,6 +18,22 @@ need() {
     done
 }
 
+# npm_packages SOURCE FOLDER: installs what the lock file in SOURCE has into FOLDER, unless it is there; one test at a time.
+npm_packages() {
+    mkdir -p "$2"
+    {
+        flock 9
+        if cmp --silent "$1/package-lock.json" "$2/installed.json" && [[ -d $2/node_modules ]]; then return 0; fi
+        cp "$1/package.json" "$1/package-lock.json" "$1/.npmrc" "$2"
+        if ! (cd "$2" && npm ci --ignore-scripts --loglevel=error) >"$2/npm.txt" 2>&1; then
+            if grep -qE 'EAI_AGAIN|ENOTFOUND|ECONNREFUSED|ETIMEDOUT|network' "$2/npm.txt"; then skip "npm has no network"; fi
+            cat "$2/npm.txt"
+            exit 1
+        fi
+        cp "$1/package-lock.json" "$2/installed.json"
+    } 9>"$2/lock"
+}
+
 # sources FOLDER...: the C++ files below, without what is built.
 sources() {
     find "$@" \( -name '*.hpp' -o -name '*.cpp' \) -not -path './build/*' | sort
