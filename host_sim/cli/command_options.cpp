@@ -282,8 +282,12 @@ void add_machine_command(CLI::App& app, Job& job) {
     machine->add_flag("--check", job.machine.checks, "say everything that is wrong, not only the first (the default)");
     machine->add_option("--from", job.machine.from,
                         machine_source_names() + ": whose file becomes a machine file (default: as its text says)");
+    machine->add_option("--to", job.machine.to,
+                        "grbl: write the machine file's numbers as lines like $110=8000, for a controller that takes "
+                        "them; --from grbl reads them back");
     machine->add_option("-o,--output", job.machine.output,
-                        "MACHINE.toml: the machine file that is made; of --try the program (default: standard output)");
+                        "MACHINE.toml: the machine file that is made; of --to the lines, of --try the program "
+                        "(default: standard output)");
     machine->add_option("--answers", job.machine.answers,
                         "A.toml: what that file does not say; without it a terminal is asked");
     machine->add_option("--try", job.machine.tried,
@@ -293,6 +297,7 @@ void add_machine_command(CLI::App& app, Job& job) {
     machine->footer("Example: splinefeed machine --check three_axis.toml\n"
                     "         splinefeed machine printer.cfg -o printer.toml\n"
                     "         splinefeed machine printer.toml --try x --for klipper -o try_x.gcode\n"
+                    "         splinefeed machine router.toml --to grbl -o settings.txt\n"
                     "Exit status: 0 nothing is wrong; 1 something is; 2 it cannot be read, or bad usage.");
 }
 

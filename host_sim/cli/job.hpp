@@ -27,7 +27,8 @@ struct LinkArguments {
 struct MachineArguments {
     bool checks = false; ///< --check was typed
     std::string from;    ///< the kind of another controller's file; empty: as its text says
-    std::string output;  ///< the machine file that is made of it; empty: standard output
+    std::string to;      ///< the other controller that gets the machine file's numbers; empty: none
+    std::string output;  ///< what is made of it; empty: standard output
     std::string answers; ///< file with what it does not say; empty: none
     std::string tried;   ///< axis of which a program tries accelerations; empty: none
     std::string tried_by = "grbl";

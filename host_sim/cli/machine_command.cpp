@@ -7,6 +7,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/doubtful_numbers.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/convert/grbl_settings.hpp"
 #include "host_sim/convert/limit_trial.hpp"
 #include "host_sim/convert/machine_source.hpp"
 #include "host_sim/planning/machine_limits.hpp"
@@ -68,6 +69,21 @@ int convert_machine(const std::string& file, const MachineArguments& arguments) 
     return 0;
 }
 
+int write_settings(const std::string& file, const MachineArguments& arguments) {
+    if (arguments.to != "grbl") {
+        throw UsageError("--to {}: it must be grbl", in_quotes(arguments.to));
+    }
+    if (!arguments.from.empty() || !arguments.answers.empty() || !arguments.tried.empty() || arguments.checks) {
+        throw UsageError("--to takes a machine file, and no --from, --answers, --try or --check; make that first");
+    }
+    const GrblSettings settings = grbl_settings(read_text_file(file, largest_machine_file), file);
+    write_output(settings.lines, arguments.output);
+    for (const std::string& left_out : settings.left_out) {
+        tell_note(left_out);
+    }
+    return 0;
+}
+
 int check_machine(const std::string& file) {
     const std::string text = read_text_file(file, largest_machine_file);
     std::vector<std::string> problems = problems_of(text, file);
@@ -93,6 +109,9 @@ int check_machine(const std::string& file) {
 } // namespace
 
 int run_machine(const std::string& file, const MachineArguments& arguments) {
+    if (!arguments.to.empty()) {
+        return write_settings(file, arguments);
+    }
     if (!arguments.tried.empty()) {
         if (!arguments.from.empty() || !arguments.answers.empty()) {
             throw UsageError("--try takes a machine file; make that first, without --try");

@@ -11,6 +11,11 @@
 
 namespace splinefeed::host {
 
+/// Numbers of an axis are that of x and its place here.
+inline constexpr std::string_view grbl_axes = "xyzabc";
+inline constexpr std::size_t first_rotary_of_grbl = 3;
+inline constexpr double per_minute = 60.0; ///< of a velocity
+
 /// Lines like `$110=8000.000`, with whatever a terminal writes before them, and a description behind. Other lines are
 /// left out.
 class GrblListing {

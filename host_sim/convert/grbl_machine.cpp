@@ -17,9 +17,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::string_view columns = "xyzabc";
-constexpr std::size_t first_rotary = 3;
-
 // Numbers of grbl that are keys of a machine file. Those of an axis are that of x.
 constexpr std::int32_t step_length = 0;
 constexpr std::int32_t drives_idle = 1;
@@ -32,12 +29,12 @@ constexpr std::int32_t max_rpm = 30;
 constexpr std::int32_t min_rpm = 31;
 constexpr std::int32_t velocity = 110;
 constexpr std::int32_t travel = 130;
+constexpr std::int32_t max_jerk = 800; // of splinefeed and of grblHAL
 constexpr std::int32_t taken_over[] = {step_length, drives_idle, inverted_steps, inverted_directions,
                                        soft_limits, max_rpm,     min_rpm};
-constexpr std::int32_t of_axes[] = {100, velocity, 120, travel};
+constexpr std::int32_t of_axes[] = {100, velocity, 120, travel, max_jerk};
 constexpr std::int32_t always_on = 255;
 constexpr unsigned home_is_zero = 3; // a bit of `homing`, in grblHAL alone
-constexpr double per_minute = 60.0;
 constexpr double most_travel_mm = 1048576.0;
 
 /// Numbers that are no key: what is said of them. With a factor: they are that times what the key would be.
@@ -64,7 +61,7 @@ public:
 
     [[nodiscard]] MachineSketch sketch() const {
         MachineSketch out;
-        for (std::size_t column = 0; column < columns.size(); ++column) {
+        for (std::size_t column = 0; column < grbl_axes.size(); ++column) {
             if (has_axis(column)) {
                 out.axes.push_back(axis(column));
             }
@@ -130,7 +127,7 @@ private:
         const SourceValue* const setting = find(first, column);
         if (setting == nullptr) {
             throw InputError(file_, 0, "there is no ${}, {} of axis {}; save all that the controller answers to $$",
-                             first + static_cast<std::int32_t>(column), key, columns[column]);
+                             first + static_cast<std::int32_t>(column), key, grbl_axes[column]);
         }
         return listing_.value(*setting, key, axis_range(key), first == velocity ? per_minute : 1.0);
     }
@@ -142,12 +139,14 @@ private:
 
     [[nodiscard]] SketchAxis axis(std::size_t column) const {
         SketchAxis out;
-        out.name = columns[column];
-        out.rotary = column >= first_rotary;
+        out.name = grbl_axes[column];
+        out.rotary = column >= first_rotary_of_grbl;
         for (const std::int32_t first : of_axes) {
-            if (first != travel) {
+            const SourceValue* const setting = find(first, column);
+            const bool is_limit = first != max_jerk || (setting != nullptr && source_number(file_, *setting) != 0.0);
+            if (first != travel && is_limit) {
                 const double number = axis_number(first, column);
-                out.rows.push_back(row(SettingList::key_of(first), short_number(number), *find(first, column)));
+                out.rows.push_back(row(SettingList::key_of(first), short_number(number), *setting));
             }
         }
         add_range(column, out);
@@ -175,7 +174,7 @@ private:
 
     [[nodiscard]] static bool is_written(std::int32_t number) {
         const auto of_axis = [number](std::int32_t first) {
-            return number >= first && number < first + static_cast<std::int32_t>(columns.size());
+            return number >= first && number < first + static_cast<std::int32_t>(grbl_axes.size());
         };
         return std::ranges::find(taken_over, number) != std::end(taken_over) || std::ranges::any_of(of_axes, of_axis);
     }

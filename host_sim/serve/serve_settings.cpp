@@ -63,7 +63,7 @@ ControllerSettings serve_settings(const RunMachine& machine_of_run, const Switch
         out.min_rpm = decimal_of(machine.spindle->min_rpm);
         out.program.most_speed = out.max_rpm;
     }
-    out.drives_stay_on = machine.drives_on_at_end.value_or(true);
+    out.idle_ms = machine.drives_on_at_end.value_or(true) ? ControllerSettings::drives_stay_on : 25;
     return out;
 }
 

@@ -39,7 +39,7 @@ BEGIN {
         program = "INS_5FixedEE" # what programs are interpreted in
         guard = "^_ZNK?10splinefeed11TravelGuard" of "(5begin|9has_ended)E"
         curve = "_ZN10splinefeed11TravelGuard" of "4nextERNS_12CurveSegment" (scalar == "float" ? "IfEE" : "IS1_EE")
-        split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion|10MoveStream;ScalarStream" of ";SettingList;(setting_rows|axis_settings).*_FUN;" \
+        split("Controller|DollarCommands|SpindleOrders;ScalarStream" of "|14StepperMachine|DollarCommands;10LineMotion|10MoveStream;ScalarStream" of ";SettingList;6detail[0-9]+(show_|axis_row.*_FUN);" \
               "TravelGuard;13TolerancePath" of "4next;10Expression|6Parser;18NumberedParameters;" \
               "BlockConditions|BlockInterpreter|BlockReader;" (values ? "10Expression" : "^$") ";" \
               "11Interpreter" program ";" (points ? "12SplinePoints" program : "^$"), may_call, ";")

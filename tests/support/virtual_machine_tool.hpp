@@ -44,12 +44,15 @@ inline ControllerSettings settings_of_machine_tool() {
 /// Executes segments, a millisecond at a time.
 class VirtualMachineTool final : public ControlledMachine {
 public:
-    explicit VirtualMachineTool(const ControllerSettings& settings) {
+    explicit VirtualMachineTool(const ControllerSettings& settings) { adopt(settings); }
+    /// Its numbers change; it stays where it is.
+    void adopt(const ControllerSettings& settings) {
         description_.settings = settings.machine;
         for (unsigned k = 0; k < 3; ++k) {
             description_.axis_name[k] = std::string(1, "xyz"[k]);
-            description_.travel[k] = host::Travel{to_mm(to_position(settings.travel[k].low)) - 1e-3,
-                                                  to_mm(to_position(settings.travel[k].high)) + 1e-3};
+            const double around = settings.travel[k].limited ? 1e-3 : 1e6;
+            description_.travel[k] = host::Travel{to_mm(to_position(settings.travel[k].low)) - around,
+                                                  to_mm(to_position(settings.travel[k].high)) + around};
         }
         judge_.emplace(description_, 1);
     }
@@ -174,7 +177,8 @@ private:
         const PerAxis<Position> before = position_;
         double way_sq = 0.0;
         for (unsigned k = 0; k < 3; ++k) {
-            const double mm = static_cast<double>(segment.end[k]) / static_cast<double>(units_per_count) / 320.0;
+            const double mm = static_cast<double>(segment.end[k]) / static_cast<double>(units_per_count) /
+                              description_.settings.axis[k].steps_per_mm;
             position_[k] = position_from_mm(mm);
             way_sq += std::pow(mm - to_mm(before[k]), 2);
         }

@@ -16,13 +16,18 @@ Fixed percent(int value) noexcept {
 } // namespace
 
 Controller::Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
-                       Memory memory) noexcept
-    : settings_(&settings), motion_(&motion), machine_(&machine), lines_(memory.lines), answers_(memory.answers),
-      spindle_(settings, machine), reading_(machine.read()) {
+                       Memory memory, SettingKeeper* keeper) noexcept
+    : settings_(&settings), motion_(&motion), machine_(&machine), keeper_(keeper), lines_(memory.lines),
+      answers_(memory.answers), spindle_(settings, machine), reading_(machine.read()) {
     SPLINEFEED_ASSERT(memory.answers.size() >= least_answers);
     motion_->place(reading_.position);
     motion_->interpreter().set_outputs(machine);
     locked_ = !reading_.known;
+    if (keeper_ != nullptr) {
+        sender_ = keeper_->sender();
+        restore_offsets();
+        start_up_ = 0;
+    }
 }
 
 void Controller::greet() noexcept {
@@ -36,7 +41,7 @@ void Controller::connect() noexcept {
     answers_.clear();
     drop_partial();
     alone_ = false;
-    of_another_ = lines_.lines() + (is_of_line(task_) ? 1U : 0U);
+    of_another_ = lines_.lines() + (is_of_line(task_) && origin_ != LineOrigin::start_up ? 1U : 0U);
     status_.refresh();
     greet();
     if (mode_ == Mode::held) {

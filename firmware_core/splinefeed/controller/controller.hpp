@@ -10,7 +10,7 @@
 #include "splinefeed/controller/line_store.hpp"
 #include "splinefeed/controller/overrides.hpp"
 #include "splinefeed/controller/query_answers.hpp"
-#include "splinefeed/controller/setting_list.hpp"
+#include "splinefeed/controller/setting_keeper.hpp"
 #include "splinefeed/controller/spindle_orders.hpp"
 #include "splinefeed/controller/status_report.hpp"
 
@@ -45,8 +45,9 @@ public:
     static constexpr std::size_t least_answers = 4096;
 
     /// All arguments must outlive it.
-    Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine,
-               Memory memory) noexcept;
+    /// @param keeper  keeps settings, offsets and start-up lines; null: nothing changes settings from here
+    Controller(const ControllerSettings& settings, LineMotion& motion, ControlledMachine& machine, Memory memory,
+               SettingKeeper* keeper = nullptr) noexcept;
 
     /// A sender connects: what was still to be said is forgotten, and it is greeted.
     void connect() noexcept;
@@ -79,6 +80,8 @@ private:
     using Task = ControllerTask;
     /// Block by block; `step`: the next one may begin.
     enum class Pace : std::uint8_t { flows, single, step };
+    /// Of the line that is executed: `kept`: the sender's, to be kept as a start-up line.
+    enum class LineOrigin : std::uint8_t { sender, kept, start_up };
 
     // controller.cpp
     void greet() noexcept;
@@ -93,6 +96,7 @@ private:
     [[nodiscard]] MoveStream& stream() const noexcept { return motion_->stream(); }
     [[nodiscard]] bool stands() const noexcept { return stream().at_rest() && reading_.stands; }
     [[nodiscard]] bool is_locked() const noexcept { return alarm_ != Alarm::none || locked_; }
+    [[nodiscard]] SettingList setting_list() const noexcept { return {*settings_, sender_, keeper_ != nullptr}; }
     bool take(ModeEvent event) noexcept {
         const Mode before = std::exchange(mode_, mode_behind(mode_, event));
         return mode_ != before;
@@ -125,8 +129,24 @@ private:
     void forget_lines() noexcept {
         lines_.clear();
         refused_lines_ = cancelled_lines_ = of_another_ = 0;
+        origin_ = LineOrigin::sender;
         motion_->begin_program();
     }
+
+    // controller_keeping.cpp
+    void set_number(std::int32_t number, Decimal value) noexcept;
+    void forget_kept(KeptKind what) noexcept;
+    void take_settings() noexcept;
+    void take_start_up(unsigned line, std::string_view text) noexcept;
+    void execute_start_up(unsigned line, std::string_view text, LineOrigin origin) noexcept;
+    [[nodiscard]] bool begin_start_up() noexcept;
+    [[nodiscard]] bool may_set() noexcept;
+    [[nodiscard]] bool rests() noexcept;
+    [[nodiscard]] bool keep_line() noexcept;
+    void keep_offsets() noexcept;
+    [[gnu::noinline]] void restore_offsets() noexcept; // its stack is for these alone
+    void end_line() noexcept;
+    [[nodiscard]] bool begin_answer() noexcept;
 
     // controller_motion.cpp
     [[nodiscard]] bool step() noexcept;
@@ -156,6 +176,7 @@ private:
     const ControllerSettings* settings_;
     LineMotion* motion_;
     ControlledMachine* machine_;
+    SettingKeeper* keeper_;
     LineStore lines_;
     RealtimeBytes bytes_;
     AnswerText answers_;
@@ -173,21 +194,25 @@ private:
     std::uint32_t block_ms_ = 0; // when the last block was executed
     std::uint32_t until_ms_ = 0; // end of a dwell
     std::uint32_t line_number_ = 0;
-    std::size_t refused_lines_ = 0;   // that had come when one was refused, or all_lines
-    std::size_t cancelled_lines_ = 0; // that had come when jogs were cancelled
-    std::size_t of_another_ = 0;      // lines that the sender before has sent: they have no answer
-    std::uint32_t home_axes_ = 0;     // that are still to begin their homing
-    std::size_t noted_ = 0;           // length of the machine's note that was said last
-    unsigned lines_left_ = 0;         // that this call may begin
+    std::size_t refused_lines_ = 0;                    // that had come when one was refused, or all_lines
+    std::size_t cancelled_lines_ = 0;                  // that had come when jogs were cancelled
+    std::size_t of_another_ = 0;                       // lines that the sender before has sent: they have no answer
+    std::uint32_t home_axes_ = 0;                      // that are still to begin their homing
+    std::size_t noted_ = 0;                            // length of the machine's note that was said last
+    unsigned lines_left_ = 0;                          // that this call may begin
+    unsigned start_up_ = SettingKeeper::startup_lines; // the next start-up line; behind the last: none is to begin
+    unsigned start_up_line_ = 0;                       // the number of that which is executed
     LineError refusal_ = LineError::none;
     Mode mode_ = Mode::ready;
     Task task_ = Task::none;
     Pace pace_ = Pace::flows;
+    LineOrigin origin_ = LineOrigin::sender;
     Alarm alarm_ = Alarm::none;
     bool locked_ = false; // until $H or $X, whatever alarm_ is
     bool quick_ = false;  // of an end: the machine stops by itself, and where it then stands the motion goes on
     bool jogging_ = false;
-    bool alone_ = false; // the sender has gone
+    bool alone_ = false;           // the sender has gone
+    bool offsets_changed_ = false; // since they were kept
 };
 
 } // namespace splinefeed

@@ -35,6 +35,7 @@ void Controller::brake() noexcept {
 // A second reset, while the first one still brakes, is the hard one.
 void Controller::begin_ending(Task end) noexcept {
     reading_ = machine_->read();
+    origin_ = origin_ == LineOrigin::kept ? LineOrigin::sender : origin_;
     const bool second = task_ == Task::reset || task_ == Task::stop;
     const bool homes = task_ == Task::home;
     if (homes || (second && !stands())) {
@@ -129,6 +130,7 @@ void Controller::end_reset() noexcept {
     offsets.g92_applies = false;
     interpreter.restart();
     interpreter.restore(offsets);
+    offsets_changed_ = true;
     alarm_ = Alarm::none;
     overrides_ = {};
     line_number_ = 0;
@@ -136,6 +138,7 @@ void Controller::end_reset() noexcept {
     pace_ = Pace::flows;
     status_.refresh();
     greet();
+    start_up_ = 0;
 }
 
 } // namespace splinefeed

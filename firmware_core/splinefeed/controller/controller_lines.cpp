@@ -19,11 +19,12 @@ struct DollarCommands {
     };
 
     static void help(Controller& c, TextCursor& /*rest*/) noexcept {
-        c.answers_.put("[HLP:$$ $# $G $I $N $x=val $J=line $SLP $C $X $H $RST=# ~ ! ? ctrl-x]").end_line();
+        c.answers_.put("[HLP:$$ $# $G $I $N $x=val"sv).put(c.keeper_ != nullptr ? " $Nx=line"sv : ""sv);
+        c.answers_.put(" $J=line $SLP $C $X $H $RST=# ~ ! ? ctrl-x]").end_line();
         c.accept();
     }
     static void settings(Controller& c, TextCursor& /*rest*/) noexcept {
-        SettingList(*c.settings_, c.sender_).write(c.answers_);
+        c.setting_list().write(c.answers_);
         c.accept();
     }
     static void offsets(Controller& c, TextCursor& /*rest*/) noexcept {
@@ -44,8 +45,24 @@ struct DollarCommands {
         c.accept();
     }
     static void startup(Controller& c, TextCursor& /*rest*/) noexcept {
-        c.answers_.put("$N0=").end_line().put("$N1=").end_line();
+        for (unsigned line = 0; line < SettingKeeper::startup_lines; ++line) {
+            c.answers_.put("$N").integer(line).put('=');
+            c.answers_.put(c.keeper_ != nullptr ? c.keeper_->startup_line(line) : ""sv).end_line();
+        }
         c.accept();
+    }
+    static void keep_startup(Controller& c, TextCursor& rest) noexcept {
+        const auto line = static_cast<unsigned>(rest.peek() - '0');
+        if (c.keeper_ == nullptr) {
+            disabled(c, rest);
+            return;
+        }
+        rest.step();
+        if (line >= SettingKeeper::startup_lines || !rest.take('=')) {
+            c.refuse(LineError::unknown_command);
+            return;
+        }
+        c.take_start_up(line, rest.at_end() ? ""sv : rest.part(rest.at(), rest.text().size()));
     }
     static void disabled(Controller& c, TextCursor& /*rest*/) noexcept {
         c.say("The machine file states this; nothing is written from here");
@@ -109,6 +126,7 @@ struct DollarCommands {
             c.task_ = Controller::Task::home;
             c.alarm_ = Alarm::none; // what stops it says so anew
             c.home_axes_ = axes;
+            c.start_up_ = axes == some ? 0 : c.start_up_;
         }
     }
     static void jog(Controller& c, TextCursor& rest) noexcept {
@@ -142,20 +160,37 @@ struct DollarCommands {
         WorkOffsets none;
         none.tool_number = c.motion_->interpreter().offsets().tool_number;
         c.motion_->interpreter().restore(none);
+        c.offsets_changed_ = true;
+        c.keep_offsets();
         c.accept();
+    }
+    template <KeptKind what>
+    static void forget(Controller& c, TextCursor& rest) noexcept {
+        c.keeper_ == nullptr ? disabled(c, rest) : c.forget_kept(what);
     }
     static void setting(Controller& c, TextCursor& rest) noexcept;
 
     static constexpr Row rows[] = {
-        {"$$", true, false, settings},     {"$#", true, false, offsets}, {"$g", true, false, modes},
-        {"$i", false, false, build},       {"$n", true, false, startup}, {"$n", false, false, disabled},
-        {"$c", true, false, check},        {"$x", true, false, unlock},  {"$h", false, false, home},
-        {"$j=", false, false, jog},        {"$slp", true, true, sleep},  {"$rst=#", true, true, clear_offsets},
-        {"$rst=", false, false, disabled}, {"$", true, false, help},
+        {"$$", true, false, settings},
+        {"$#", true, false, offsets},
+        {"$g", true, false, modes},
+        {"$i", false, false, build},
+        {"$n", true, false, startup},
+        {"$n", false, false, keep_startup},
+        {"$c", true, false, check},
+        {"$x", true, false, unlock},
+        {"$h", false, false, home},
+        {"$j=", false, false, jog},
+        {"$slp", true, true, sleep},
+        {"$rst=#", true, true, clear_offsets},
+        {"$rst=$", true, false, forget<KeptKind::settings>},
+        {"$rst=*", true, false, forget<KeptKind::all>},
+        {"$rst=", false, false, disabled},
+        {"$", true, false, help},
     };
 };
 
-// $n=value: what is there already may be set.
+// $n=value: where nothing is kept, what is there already may be set.
 void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     Decimal number;
     Decimal value;
@@ -163,8 +198,12 @@ void DollarCommands::setting(Controller& c, TextCursor& rest) noexcept {
     std::int32_t n = 0;
     rest.take('$');
     if (!read_decimal(rest, number).ok() || !to_integer(number, n) || !rest.take('=') ||
-        !read_decimal(rest, value).ok() || !rest.at_end() || !SettingList(*c.settings_, c.sender_).find(n, present)) {
+        !read_decimal(rest, value).ok() || !rest.at_end() || !c.setting_list().find(n, present)) {
         c.refuse(LineError::unknown_command);
+        return;
+    }
+    if (c.keeper_ != nullptr) {
+        c.set_number(n, value);
         return;
     }
     constexpr std::int64_t shown = Decimal::one / 1000;
@@ -199,7 +238,9 @@ void Controller::execute_line() noexcept {
     TextCursor jog = cursor;
     const bool cancelled = cancelled_lines_ > 0 && jog.take("$j="sv);
     cancelled_lines_ -= cancelled_lines_ > 0 ? 1U : 0U;
-    const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h';
+    TextCursor kept = cursor;
+    const bool moves = cursor.peek() != '$' || cursor.peek_second() == 'j' || cursor.peek_second() == 'h' ||
+                       (keeper_ != nullptr && kept.take("$n"sv) && !kept.at_end());
     if (line_.too_long) {
         say("A line has at most 256 characters beside comments");
         refuse(LineError::too_long);
@@ -267,20 +308,24 @@ bool Controller::answers_nobody() noexcept {
 }
 
 void Controller::accept() noexcept {
-    if (!answers_nobody()) {
+    if (begin_answer()) {
         answers_.put("ok").end_line();
     }
 }
 
 void Controller::refuse(LineError error) noexcept {
-    if (!answers_nobody()) {
+    if (begin_answer()) {
         answers_.put("error:").integer(static_cast<std::int64_t>(error)).end_line();
     }
 }
 
 void Controller::refuse_block(const BlockStatus& status, bool jog) noexcept {
     answers_.put("[MSG:Error: ");
-    jog ? answers_.put("jog") : answers_.integer(line_number_);
+    if (origin_ != LineOrigin::sender) {
+        answers_.put("$N").integer(start_up_line_);
+    } else {
+        jog ? answers_.put("jog") : answers_.integer(line_number_);
+    }
     if (status.column > 0) {
         answers_.put(':').integer(status.column);
     }
@@ -301,8 +346,9 @@ void Controller::refuse_block(const BlockStatus& status, bool jog) noexcept {
 // Lines that had come before are refused, too, and what moves is held: the sender decides.
 void Controller::refuse_behind(LineError error) noexcept {
     refusal_ = error;
+    const bool of_program = origin_ == LineOrigin::sender;
     refuse(error);
-    if (!settings_->holds_on_error || mode_ == Mode::check || jogging_) {
+    if (!settings_->holds_on_error || mode_ == Mode::check || jogging_ || !of_program) {
         return;
     }
     refused_lines_ = lines_.lines();

@@ -12,6 +12,9 @@ void Controller::execute(std::uint32_t now_ms) noexcept {
     reading_ = machine_->read();
     watch();
     settle();
+    if (task_ == Task::none) {
+        keep_offsets();
+    }
     do {
         while (step()) {
         }
@@ -112,6 +115,9 @@ bool Controller::step() noexcept {
     if (task_ != Task::none) {
         return go_on();
     }
+    if (begin_start_up()) {
+        return true;
+    }
     const bool waits =
         (mode_ == Mode::tool || (in_door() && refused_lines_ == 0)) && lines_.lines() > 0 && !lines_.begins("$"sv);
     if (lines_.lines() == 0 || lines_left_ == 0 || waits || waits_for_step()) {
@@ -160,6 +166,7 @@ bool Controller::go_on() noexcept {
     case Task::probe:
     case Task::touched: return finish_probe();
     case Task::home: return go_home();
+    case Task::keep: return keep_line();
     default: return false; // an end
     }
     motion_->carried_out();
@@ -187,7 +194,8 @@ bool Controller::go_on(BlockProgress progress) noexcept {
 
 void Controller::end_task() noexcept {
     drop_task();
-    accept();
+    keep_offsets();
+    end_line();
 }
 
 void Controller::drop_task() noexcept {
@@ -229,7 +237,7 @@ void Controller::carry_out(const ProgramEvent& event) noexcept {
     case EventKind::message:
     case EventKind::print:
     case EventKind::debug: say(event.text.of(line_.view())); return;
-    case EventKind::offsets_changed: return;
+    case EventKind::offsets_changed: offsets_changed_ = true; return;
     case EventKind::pause:
     case EventKind::optional_pause:
     case EventKind::pallet_pause: pause("Program paused: '~' goes on"sv); return;
@@ -274,7 +282,7 @@ void Controller::begin_probe() noexcept {
     drop_task();
     if (settings_->probes) {
         raise(Alarm::probe_at_start);
-        accept();
+        end_line();
     } else {
         say("The machine has no probe");
         refuse_behind(LineError::unsupported_word);
@@ -303,7 +311,7 @@ bool Controller::finish_probe() noexcept {
         raise(Alarm::probe_without_contact);
     }
     write_probe(probe_, settings_->program, sender_.inches, answers_);
-    accept();
+    end_line();
     return true;
 }
 

@@ -21,7 +21,7 @@ struct AxisTravel {
     }
 };
 
-/// Of an axis, for `$` queries alone.
+/// Of an axis, for `$` lines.
 struct AxisWiring {
     bool invert_step = false;
     bool invert_direction = false;
@@ -29,6 +29,8 @@ struct AxisWiring {
 };
 
 struct ControllerSettings {
+    static constexpr std::int32_t drives_stay_on = 255; ///< of idle_ms
+
     MachineSettings machine{};
     /// Dialect::grbl, with the letters of the axes.
     ProgramSettings program{.dialect = Dialect::grbl, .numbered = true};
@@ -42,10 +44,15 @@ struct ControllerSettings {
     std::string_view source; ///< where its numbers stand, for messages
     std::uint32_t homes = 0; ///< axes that find a reference by $H, by bits; of the others what would be right:
     std::string_view no_home = "the machine has no switch for it";
-    bool probes = true;      ///< it has a probe
-    bool has_limits = false; ///< limit switches
-    bool drives_stay_on = true;
-    bool holds_on_error = true; ///< a refused line holds the motion
+    bool home_is_zero = false;       ///< the travel of an axis that homes low begins at 0
+    std::uint32_t home_switches = 0; ///< axes that have one: what $22=1 makes of `homes`
+    bool probes = true;              ///< it has a probe
+    bool has_limits = false;         ///< limit switches
+    bool invert_enable = false;      ///< the contrary of what the board has; the next two, too
+    bool invert_limits = false;
+    bool invert_probe = false;
+    std::int32_t idle_ms = drives_stay_on; ///< the drives go off so long behind a motion
+    bool holds_on_error = true;            ///< a refused line holds the motion
     Decimal max_rpm = Decimal::from_integer(1000);
     Decimal min_rpm{};
     bool has_speed = true; ///< the spindle has one

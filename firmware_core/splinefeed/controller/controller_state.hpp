@@ -77,6 +77,7 @@ enum class ControllerTask : std::uint8_t {
     input,
     probe,
     touched,
+    keep, ///< a start-up line, where the machine stands
     home,
     // The motion comes to its end, because of:
     jog_cancel,

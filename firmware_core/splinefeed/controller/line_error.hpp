@@ -18,6 +18,7 @@ enum class LineError : std::uint8_t {
     not_now = 8, ///< only in Idle
     locked = 9,  ///< alarm, jog, or a line behind one that was refused
     too_long = 11,
+    start_up_too_long = 14,
     jog_word = 16,
     unsupported_word = 20,
     modal_conflict = 21,

@@ -16,12 +16,11 @@ struct SenderSettings {
     bool inches = false; ///< $13
 };
 
-/// The machine file states the numbers: nothing changes them from here.
 class SettingList {
 public:
-    /// Both must outlive it.
-    SettingList(const ControllerSettings& settings, const SenderSettings& sender) noexcept
-        : settings_(&settings), sender_(&sender) {}
+    /// Both must outlive it. @param kept  the machine keeps settings, and has all numbers that one can keep
+    SettingList(const ControllerSettings& settings, const SenderSettings& sender, bool kept = false) noexcept
+        : settings_(&settings), sender_(&sender), kept_(kept) {}
 
     /// All of them, a line each.
     void write(AnswerText& out) const noexcept;
@@ -29,10 +28,13 @@ public:
     [[nodiscard]] bool find(std::int32_t number, Decimal& out) const noexcept;
     /// The key of a machine file that states it; empty: none does.
     [[nodiscard]] static std::string_view key_of(std::int32_t number) noexcept;
+    /// The axis of the machine that stands there in x, y, z, a, b, c; -1: it has none.
+    [[nodiscard]] static int axis_of(const ProgramSettings& program, std::int32_t place) noexcept;
 
 private:
     const ControllerSettings* settings_;
     const SenderSettings* sender_;
+    bool kept_;
 };
 
 } // namespace splinefeed
