@@ -48,6 +48,12 @@ set_tests_properties(firmware_lm3s6965 firmware_stm32f405 firmware_nrf51 PROPERT
 set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3)
 set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
+# The Pico's emulator, before what runs in it; it leaves rp2040js in the build.
+repository_test(pico_emulator firmware/pico/emulator.sh ${PROJECT_BINARY_DIR})
+repository_test(pico_usb firmware/pico/usb.sh ${PROJECT_BINARY_DIR})
+repository_test(pico_firmware firmware/pico/firmware.sh ${PROJECT_BINARY_DIR})
+set_tests_properties(pico_usb PROPERTIES DEPENDS pico_emulator)
+set_tests_properties(pico_firmware PROPERTIES DEPENDS "pico_emulator;arm_link_m0" RESOURCE_LOCK arm_build_m0)
 # The boards as Modbus drives. The one that QEMU runs keeps time with the host (keeps_time/CMakeLists.txt).
 repository_test(firmware_modbus_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 not-run drive)
 repository_test(firmware_modbus_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 not-run drive)

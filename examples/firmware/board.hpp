@@ -4,9 +4,11 @@
 //   namespace board {
 //   constexpr const char* name;
 //   using Real = splinefeed::Fixed;            // or float
-//   constexpr unsigned tick_us;                // of the interrupt; a byte on the line lasts longer
+//   constexpr unsigned tick_us;                // of the motion
+//   constexpr unsigned ticks_an_interrupt;     // made in one; a byte on the line lasts longer, or has a FIFO
+//   constexpr unsigned pulse_us;               // how long a pulse lasts
 //   constexpr unsigned segment_us;             // of a feed segment: one part of motion in the ring
-//   constexpr unsigned steps_per_s;            // of the fastest axis; below half a step a tick
+//   constexpr unsigned steps_per_s;            // of the fastest axis; Lines::counts_in_ticks
 //   constexpr std::size_t window;              // cells of look-ahead, 10 or more
 //   constexpr bool curves_through_points;      // whether it has RAM for G5.5; of boards that senders operate
 //   constexpr std::size_t parameters;          // of those, too: #1 to this one, and expressions; 0: it has neither
@@ -19,9 +21,12 @@
 //   void acknowledge_tick();
 //   void feed_watchdog();
 //   bool watchdog_bit();                       // this start is the watchdog's work; clears what says so
-//   void write_lines(firmware::Lines lines);   // levels: bit k of .step and of .up is axis k
+//   using Lines;                               // of StepGenerator, for three axes
+//   Lines lines();
+//   void run_ticks(Tick tick);                 // tick(write) for each of an interrupt, write as Lines call it
 //   void enable_drives(bool on);
 //   firmware::Inputs read_inputs();            // {emergency stop, limit switch}; true: stop
+//   std::uint32_t line_session();              // another number for each sender that opens the line
 //   int read_byte();                           // a byte, Serial::nothing, or Serial::lost: overrun, framing, break
 //   bool write_byte(std::uint8_t byte);        // false: the UART has no room now
 //   }

@@ -41,17 +41,24 @@ inline constexpr std::uint32_t tick_ticks = board::tick_us * splinefeed::ticks_p
 static_assert(limits->segment_ticks == board::segment_us * splinefeed::ticks_per_us, "one segment a sample");
 static_assert(limits->segment_ticks % tick_ticks == 0 && limits->segment_ticks / tick_ticks <= 1024,
               "a segment is one part: a whole number of ticks");
-static_assert(board::steps_per_s * std::uint64_t{board::tick_us} < 500'000, "TickDda: below half a step a tick");
+static_assert(board::steps_per_s * std::uint64_t{board::tick_us} * board::Lines::counts_in_ticks[1] <
+                  1'000'000 * board::Lines::counts_in_ticks[0],
+              "an axis is too fast for the ticks");
 
-/// A motion begins when the ring is three quarters full. Half of it, at most 64 parts, is kept to slow down over.
+using Steps = StepGenerator<axes, board::Lines>;
+
+/// A motion begins when the ring is three quarters full, or holds 96 parts: a planner that waits for more lines may not
+/// give more. Half of the ring, at most 64 parts, is kept to slow down over.
 inline constexpr Lookahead lookahead = [] {
     Lookahead ahead;
     while (ahead.reserve_log2 < 6 && (2U << ahead.reserve_log2) <= board::parts / 2) {
         ++ahead.reserve_log2;
     }
-    ahead.start = static_cast<unsigned>(board::parts) * 3 / 4;
+    constexpr unsigned most = 96;
+    constexpr unsigned three_quarters = static_cast<unsigned>(board::parts) * 3 / 4;
+    ahead.start = three_quarters < most ? three_quarters : most;
     ahead.leaving_steps = 800; // 10 mm of x and y, 2 mm of z
-    ahead.slew = (StepGenerator<axes>::full_rate / 2 * tick_ticks / limits->segment_ticks) >> ahead.reserve_log2;
+    ahead.slew = (Steps::full_rate / 2 * tick_ticks / limits->segment_ticks) >> ahead.reserve_log2;
     return ahead;
 }();
 static_assert(lookahead.slew > 0);

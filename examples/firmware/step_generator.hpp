@@ -4,7 +4,7 @@
 // runs out.
 #pragma once
 
-#include "step_shaper.hpp"
+#include "pin_lines.hpp"
 
 #include "splinefeed/base/spsc_ring.hpp"
 #include "splinefeed/s5_pulse_train/tick_dda.hpp"
@@ -15,8 +15,6 @@
 #include <span>
 
 namespace firmware {
-
-using splinefeed::PerAxis;
 
 /// A feed segment, in the form of the interrupt.
 struct MotionPart {
@@ -59,29 +57,35 @@ struct Lookahead {
 /// lets sigma fall to 0 by the same slope.
 ///
 /// tick() belongs to the interrupt; all other functions belong to the main loop.
-template <unsigned Axes>
+/// @tparam Lines  what shows the steps: PinLines or WordLines
+template <unsigned Axes, class Lines = PinLines<Axes>>
 class StepGenerator {
 public:
     using Part = MotionPart;
     static constexpr std::uint32_t full_rate = 1U << 16;
 
-    constexpr StepGenerator(std::span<Part> storage, const Lookahead& lookahead) noexcept
-        : ring_(storage), lookahead_(lookahead) {}
+    constexpr StepGenerator(std::span<Part> storage, const Lookahead& lookahead, const Lines& lines = {}) noexcept
+        : ring_(storage), lines_(lines), dda_(lines.dda()), lookahead_(lookahead) {}
 
-    /// One tick. `write(lines)` comes first: the levels were computed in the tick before, so edges do not wait for
-    /// computations.
+    /// One tick. `write`, as the lines call it, comes first: the levels were computed in the tick before, so edges do
+    /// not wait for computations.
     template <class Write>
     void tick(const Inputs& inputs, Write&& write) noexcept {
         ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
         if (inputs.estop) {
-            cut(Stop::estop);
+            cut(Stop::estop, write);
         }
-        obey();
-        write(out_);
-        count_steps();
-        watch_limit(inputs.limit);
-        out_ = shaper_.next(advance());
-        active_.store(moving_ || out_.step != 0 || !shaper_.empty(), std::memory_order_release);
+        obey(write);
+        bool steps = false;
+        const auto made = [this, &steps](unsigned axis, std::int32_t by) {
+            count_[axis].store(count(axis) + by, std::memory_order_relaxed);
+            steps = true;
+        };
+        lines_.show(write, made);
+        watch_limit(inputs.limit, steps);
+        const auto taken = advance();
+        lines_.take(taken, moving_, made);
+        active_.store(moving_ || !lines_.empty(), std::memory_order_release);
     }
 
     /// For the writer of the ring.
@@ -130,7 +134,7 @@ public:
         rests_passed_ = rests_pushed_.load(std::memory_order_relaxed);
         rest_ = true;
         in_part_ = false;
-        dda_ = {};
+        dda_ = lines_.dda();
         stand();
     }
     /// Forgets what stopped the machine. Apart from restart(): a stop that comes while a motion is prepared stays.
@@ -144,6 +148,8 @@ public:
     }
 
 private:
+    using DdaSteps = typename Lines::Dda::Steps;
+
     static constexpr unsigned places_log2 = 6;
     /// sqrt(i / 64), in 1/2^16.
     static constexpr std::array<std::uint32_t, 1U << places_log2> roots = [] {
@@ -169,18 +175,8 @@ private:
         }
         dda_.stand(counts);
     }
-    void count_steps() noexcept {
-        if (out_.step == 0) {
-            return;
-        }
-        for (unsigned k = 0; k < Axes; ++k) {
-            if (((out_.step >> k) & 1U) != 0) {
-                count_[k].store(count(k) + (((out_.up >> k) & 1U) != 0 ? 1 : -1), std::memory_order_relaxed);
-            }
-        }
-    }
     /// A machine that stands on a switch, or was stopped by it, may move off it, but not far.
-    void watch_limit(bool pressed) noexcept {
+    void watch_limit(bool pressed, bool steps) noexcept {
         if (pressed && !on_limit_) {
             leaving_ = moving_ ? 0 : lookahead_.leaving_steps;
         }
@@ -188,23 +184,27 @@ private:
         if (pressed && moving_ && leaving_ == 0) {
             stopping_ = Stop::limit;
         }
-        leaving_ -= leaving_ > 0 && out_.step != 0 ? 1U : 0U;
+        leaving_ -= leaving_ > 0 && steps ? 1U : 0U;
     }
     /// No pulse begins any more.
-    void cut(Stop reason) noexcept {
+    template <class Write>
+    void cut(Stop reason, Write& write) noexcept {
         end_with(reason);
-        shaper_.clear();
-        out_.step = 0;
+        const PerAxis<std::int32_t> back = lines_.cut(write);
+        for (unsigned k = 0; k < Axes; ++k) {
+            count_[k].store(count(k) - back[k], std::memory_order_relaxed);
+        }
     }
     /// What was asked for.
-    void obey() noexcept {
+    template <class Write>
+    void obey(Write& write) noexcept {
         const Stop order = order_.load(std::memory_order_relaxed);
         if (order == Stop::none) {
             return;
         }
         order_.store(Stop::none, std::memory_order_relaxed);
         if (order == Stop::cut) {
-            cut(Stop::cut);
+            cut(Stop::cut, write);
         } else if (!moving_) {
             end_with(Stop::halted);
         } else if (stopping_ == Stop::none) {
@@ -224,7 +224,7 @@ private:
     }
 
     /// The steps of a tick, if the motion's time comes to one.
-    splinefeed::StepBits advance() noexcept {
+    DdaSteps advance() noexcept {
         if (!moving_) {
             if (stop_.load(std::memory_order_relaxed) != Stop::none || ring_.empty() ||
                 !(ring_.size() >= lookahead_.start || rest_ahead())) {
@@ -252,7 +252,7 @@ private:
         return dda_.left() > 0 ? dda_.tick() : begin_part();
     }
 
-    splinefeed::StepBits begin_part() noexcept {
+    DdaSteps begin_part() noexcept {
         if (in_part_ && rest_) {
             ++rests_passed_;
         }
@@ -269,7 +269,7 @@ private:
             return {};
         }
         const Part& part = ring_.front();
-        const splinefeed::StepBits steps = dda_.begin(part.ticks);
+        const DdaSteps steps = dda_.begin(part.ticks);
         target_ = rest_ahead() ? full_rate : rate_at(ring_.size());
         if (rest_ && stopping_ == Stop::none) {
             rate_ = target_; // at standstill time may jump
@@ -296,10 +296,9 @@ private:
     std::atomic<bool> active_{false};
 
     // The interrupt's own, but for restart().
-    splinefeed::TickDda<Axes> dda_{};
-    StepShaper<Axes> shaper_{};
+    Lines lines_;
+    typename Lines::Dda dda_;
     Lookahead lookahead_;
-    Pins out_{};
     PerAxis<std::int32_t> end_{};
     std::uint32_t rests_passed_ = 0;
     std::uint32_t rate_ = 0;

@@ -20,18 +20,16 @@ expressions() {
 # build_images CPU BUILD_DIRECTORY
 build_images() {
     local without='' quintic_without='' scalars='double;float;Fixed' quintic_scalars='double;float;Fixed'
-    # The one that senders operate with curves through points has all sources of the core; the others what their images use.
+    # Those that senders operate with curves through points have all sources of the core; the others what their images use.
     if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then
         without=$(expressions tests/arm/unused_sources.txt)
         scalars='float;Fixed'
         quintic_scalars=$scalars
-        if [[ $1 != cortex-m4f ]]; then
+        if [[ $1 != cortex-m4f ]]; then quintic_scalars=Fixed; fi
+        if [[ $1 == cortex-m3 ]]; then
             quintic_without=$(expressions tests/arm/unused_quintic_sources.txt)
-            quintic_scalars=Fixed
+            scalars=Fixed
         fi
-        if [[ $1 == cortex-m3 ]]; then scalars=Fixed; fi
-        # No firmware of it is operated by senders.
-        if [[ $1 == cortex-m0 ]]; then quintic_without+='|/controller/|/s[2-5]_'; fi
     fi
     # One at a time: what keeps time is another run of ctest.
     mkdir -p "$2"

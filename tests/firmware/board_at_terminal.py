@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A board in QEMU whose serial line is a pseudo terminal: board_at_terminal.py IMAGE BOARD LINK. It says "ready", and when its input ends the counts to which
+"""An emulated board whose serial line is a pseudo terminal: board_at_terminal.py IMAGE BOARD LINK. It says "ready", and when its input ends the counts to which
 the pulses of its pins lead.
 
 Its time goes on while its sender talks, and stands still HEARD_MS behind the last byte. So nothing depends on how long a busy host lets that sender wait."""
@@ -10,8 +10,7 @@ import sys
 import tempfile
 import tty
 
-from board_in_qemu import Board, plugins_refused
-from operated_board import SLICE_MS, BoardSender
+from operated_board import EMULATED, SLICE_MS, BoardSender
 from planned import LINES, counts_after, steps_of
 
 HEARD_MS = 800  # a jog ends behind 1000 ms of silence
@@ -19,15 +18,16 @@ HEARD_MS = 800  # a jog ends behind 1000 ms of silence
 
 def main():
     image, machine, link = sys.argv[1:]
-    if refused := plugins_refused():
-        print(refused)
+    board_of, refused = EMULATED[machine]
+    if why := refused():
+        print(why)
         return 77
     master, slave = os.openpty()  # which stays open: its other end does not see a sender go, as a wire does not
     tty.setraw(slave)
     os.set_blocking(master, False)
     os.symlink(os.ttyname(slave), link)
     with tempfile.TemporaryDirectory() as folder:
-        board = Board(image, folder, machine)
+        board = board_of(image, folder, machine)
         try:
             sender, left = BoardSender(board), HEARD_MS
             print("ready", flush=True)

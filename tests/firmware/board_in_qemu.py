@@ -68,6 +68,8 @@ class Kind:
     has segments of 8 ms and ticks of 200 us, as machine.hpp makes it. `ports`: what pins_plugin.c puts into it, first the port whose
     inputs the firmware reads in each tick; `outputs`: {(port, bit): pin}; `contacts`: {pin: Contact}."""
 
+    exact, reads_late = False, 0
+
     def __init__(self, window, scalar, shift, ports, outputs, contacts, *, watchdog=False, slow=False):
         self.window, self.scalar, self.shift, self.watchdog, self.slow = window, scalar, shift, watchdog, slow
         self.tick_ns = 200_000 if slow else 50_000
@@ -148,6 +150,25 @@ class Board:
         self.uart.sendall(text.encode())
         self.go_on()
 
+    def transmit(self, data):
+        """Bytes to its UART. What halts stays halted, and has them at this instant of the machine's time."""
+        self.uart.sendall(data)
+        if self.halts:  # what answers also fills the UART's FIFO
+            self.halted()
+            self.halted()
+
+    def receive(self, seconds):
+        """What it has said, if it says something within that time."""
+        if not select.select([self.uart], [], [], seconds)[0]:
+            return b""
+        data = self.uart.recv(65536)
+        if not data:
+            raise BoardFailed("QEMU has ended")
+        return data
+
+    def reset(self):
+        self.ask_monitor("system_reset")
+
     def halt_after(self, changes):
         """The machine halts when its pins have changed so often from now on. What the host does next, it then does at that instant of the
         machine's time, however busy the host is."""
@@ -182,11 +203,9 @@ class Board:
 
     def take(self, seconds):
         """Takes what the board says within that time, at once if something is there."""
-        if not select.select([self.uart], [], [], seconds)[0]:
-            return False
-        data = self.uart.recv(4096)
+        data = self.receive(seconds)
         if not data:
-            raise BoardFailed("QEMU has ended")
+            return False
         for control in re.findall(rb"[\x11\x13]", data):
             self.paused = control == XOFF
             self.pauses += self.paused

@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""A sender at the serial line of a board in QEMU, in the machine's time."""
-import os
+"""A sender at the serial line of an emulated board, in the machine's time."""
 import pathlib
-import select
 import sys
 import time
 
-from board_in_qemu import WAIT_S
+import board_in_node
+import board_in_qemu
+from board_in_qemu import KINDS, WAIT_S, plugins_refused
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "serve"))
 from sender import Failed, Sender  # noqa: E402
 
 
+# {machine: (its board, why it cannot be had here)}
+EMULATED = (dict.fromkeys(KINDS, (board_in_qemu.Board, plugins_refused)) |
+            dict.fromkeys(("pico", "pico-usb"), (board_in_node.Board, board_in_node.refused)))
 SLICE_MS = 20
 
 
@@ -25,10 +28,7 @@ class BoardSender(Sender):
         self.ms = 1_000_000 // board.kind.tick_ns  # ticks
 
     def send(self, data):
-        self.board.uart.sendall(data)
-        if self.board.halts:  # what answers also fills the UART's FIFO: a byte that acts at once comes at this instant of the machine's time
-            self.board.halted()
-            self.board.halted()
+        self.board.transmit(data)
 
     def begin(self, lines):
         """A program that begins when the board has received all of it, however late a busy host sends it: at M0 it waits for that."""
@@ -40,13 +40,9 @@ class BoardSender(Sender):
 
     def take(self, seconds):
         """Whether something has come."""
-        if not select.select([self.board.uart], [], [], seconds)[0]:
-            return False
-        part = os.read(self.board.uart.fileno(), 65536)
-        if not part:
-            raise Failed("QEMU has ended")
+        part = self.board.receive(seconds)
         self.text += part
-        return True
+        return bool(part)
 
     def read(self, seconds):
         if self.take(0.0):

@@ -24,6 +24,8 @@ namespace board {
 constexpr const char* name = "lm3s6965";
 using Real = splinefeed::Fixed;
 constexpr unsigned tick_us = 50;
+constexpr unsigned ticks_an_interrupt = 1;
+constexpr unsigned pulse_us = tick_us;
 constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 20;
@@ -32,6 +34,11 @@ constexpr std::size_t parameters = 0;         // nor 1 KB for them
 constexpr std::size_t parts = 128;
 constexpr unsigned interrupts = 44;
 constexpr int timer_interrupt = 19; // timer 0A
+
+using Lines = firmware::PinLines<3>;
+inline Lines lines() {
+    return {};
+}
 
 constexpr std::uint32_t clock_hz = 50'000'000;
 constexpr std::uint32_t estop_pressed_level = 0;
@@ -159,6 +166,10 @@ inline void write_lines(firmware::Pins lines) {
     pins(PORT_D, direction_pins) = lines.up << 4;
     pins(PORT_D, step_pins) = lines.step;
 }
+template <class Tick>
+inline void run_ticks(Tick&& tick) {
+    tick([](firmware::Pins lines) { write_lines(lines); });
+}
 inline void enable_drives(bool on) {
     pins(PORT_D, enable_pin) = on ? enable_pin : 0;
 }
@@ -166,6 +177,9 @@ inline firmware::Inputs read_inputs() {
     return {pins(PORT_F, 1U << 1) >> 1 == estop_pressed_level, pins(PORT_E, 1U) == limit_pressed_level};
 }
 
+inline std::uint32_t line_session() {
+    return 0;
+}
 inline int read_byte() {
     if ((reg(UARTFR) & 1U << 4) != 0) {
         return firmware::Serial::nothing;

@@ -22,12 +22,19 @@ namespace board {
 constexpr const char* name = "nrf51";
 using Real = float;
 constexpr unsigned tick_us = 200;
+constexpr unsigned ticks_an_interrupt = 1;
+constexpr unsigned pulse_us = tick_us;
 constexpr unsigned segment_us = 8000;
 constexpr unsigned steps_per_s = 2000;
 constexpr std::size_t window = 10;
 constexpr std::size_t parts = 28;
 constexpr unsigned interrupts = 32;
 constexpr int timer_interrupt = 8; // TIMER0
+
+using Lines = firmware::PinLines<3>;
+inline Lines lines() {
+    return {};
+}
 
 constexpr std::uint32_t clock_hz = 16'000'000;
 constexpr std::uint32_t estop_pressed_level = 0;
@@ -132,6 +139,10 @@ inline bool watchdog_bit() {
 inline void write_lines(firmware::Pins lines) {
     reg(GPIO_OUT) = (reg(GPIO_OUT) & ~line_pins) | lines.step << step_shift | lines.up << direction_shift;
 }
+template <class Tick>
+inline void run_ticks(Tick&& tick) {
+    tick([](firmware::Pins lines) { write_lines(lines); });
+}
 inline void enable_drives(bool on) {
     reg(on ? GPIO_OUTSET : GPIO_OUTCLR) = enable_pin;
 }
@@ -140,6 +151,9 @@ inline firmware::Inputs read_inputs() {
     return {(levels >> estop_pin & 1U) == estop_pressed_level, (levels >> limit_pin & 1U) == limit_pressed_level};
 }
 
+inline std::uint32_t line_session() {
+    return 0;
+}
 inline int read_byte() {
     if (reg(UART_ERROR) != 0) {
         reg(UART_ERROR) = 0;

@@ -19,6 +19,8 @@ namespace board {
 constexpr const char* name = "stm32f405";
 using Real = float;
 constexpr unsigned tick_us = 50;
+constexpr unsigned ticks_an_interrupt = 1;
+constexpr unsigned pulse_us = tick_us;
 constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 64;
@@ -27,6 +29,11 @@ constexpr std::size_t parameters = 200;
 constexpr std::size_t parts = 128;
 constexpr unsigned interrupts = 82;
 constexpr int timer_interrupt = -1; // SysTick, the vector before those of the chip
+
+using Lines = firmware::PinLines<3>;
+inline Lines lines() {
+    return {};
+}
 
 constexpr std::uint32_t clock_hz = 168'000'000;
 constexpr std::uint32_t crystal_mhz = 25;
@@ -146,6 +153,10 @@ inline void write_lines(firmware::Pins lines) {
     const std::uint32_t high = lines.up << 4 | lines.step;
     reg(GPIOC + BSRR) = high | ((step_pins | direction_pins) & ~high) << 16;
 }
+template <class Tick>
+inline void run_ticks(Tick&& tick) {
+    tick([](firmware::Pins lines) { write_lines(lines); });
+}
 inline void enable_drives(bool on) {
     reg(GPIOC + BSRR) = on ? enable_pin : enable_pin << 16;
 }
@@ -154,6 +165,9 @@ inline firmware::Inputs read_inputs() {
     return {(open & estop_pin) != 0, (open & limit_pin) != 0};
 }
 
+inline std::uint32_t line_session() {
+    return 0;
+}
 inline int read_byte() {
     const std::uint32_t status = reg(USART1_SR);
     if ((status & 1U << 5) == 0) {

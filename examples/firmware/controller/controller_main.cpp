@@ -102,6 +102,13 @@ bool exchange(std::uint32_t now_ms) noexcept {
 
 /// A round of the main loop; returns whether another one has something to do at once.
 bool work(std::uint32_t now_ms) noexcept {
+    // A sender that has gone holds its program, and the next one is greeted.
+    static std::uint32_t session = 0;
+    if (const std::uint32_t here = board::line_session(); here != session) {
+        session = here;
+        controller->disconnect();
+        controller->connect();
+    }
     // In this order: what a reset has stopped is not seen before the reset itself.
     stepper->look({estop.load(std::memory_order_relaxed), limit.load(std::memory_order_relaxed)}, wire->bytes_lost());
     const bool talks = exchange(now_ms);
@@ -123,11 +130,13 @@ void on_tick() {
     const Inputs inputs = begin_tick();
     estop.store(inputs.estop, std::memory_order_relaxed);
     limit.store(inputs.limit, std::memory_order_relaxed);
-    // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
-    if (wire->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
-        !steps->stands()) {
-        steps->order(Stop::halted); // the controller will ask for the same
+    board::run_ticks([&inputs](auto&& write) { steps->tick(inputs, write); });
+    for (unsigned i = 0; i < board::ticks_an_interrupt; ++i) {
+        // Not the functions themselves: those would be called by their addresses.
+        if (wire->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); }) &&
+            !steps->stands()) {
+            steps->order(Stop::halted); // the controller will ask for the same
+        }
     }
 }
 
@@ -136,11 +145,11 @@ void on_tick() {
 int main() {
     using namespace firmware;
     board::start();
-    Steps& generator = steps.build(parts.build(), lookahead);
+    Steps& generator = steps.build(parts.build(), lookahead, board::lines());
     wire.build();
     const bool by_watchdog = board::watchdog_bit(); // in motion, as a rule
     stepper.build(generator, !by_watchdog);
-    stream.build(*limits, planner.build(window.build()), path_rules,
+    stream.build(*operated_limits, planner.build(window.build()), path_rules,
                  &guard.build(operator_settings.travel, static_cast<int>(axes)));
     motion.build(operator_settings, *stream, curve_memory<board::curves_through_points>(),
                  word_evaluator<board::parameters>());

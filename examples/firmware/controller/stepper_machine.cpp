@@ -55,7 +55,7 @@ void StepperMachine::look(Inputs inputs, bool bytes_lost) noexcept {
         has_stopped_ = stop == Stop::limit || stop == Stop::halted;
         alarm_ = stop == Stop::limit ? Alarm::limit_switch : alarm_;
         steps_.restart();
-        loader_ = splinefeed::DdaLoader(static_cast<int>(axes), tick_ticks);
+        loader_ = first_loader;
         steps_.forgive();
     }
     alarm_ = stop == Stop::estop || inputs.estop ? Alarm::emergency_stop : alarm_;

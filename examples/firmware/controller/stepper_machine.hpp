@@ -9,8 +9,6 @@
 
 namespace firmware {
 
-using Steps = StepGenerator<axes>;
-
 /// It has no spindle, no probe and no home switches. Steps are counted, so a stop along the path loses no position; one
 /// by the emergency stop, or by a second reset, may.
 class StepperMachine final : public splinefeed::ControlledMachine {
@@ -45,7 +43,8 @@ private:
     static constexpr std::uint32_t longest_pause = 50'000 / board::tick_us; // of segments
 
     Steps& steps_;
-    splinefeed::DdaLoader loader_{static_cast<int>(axes), tick_ticks};
+    static constexpr splinefeed::DdaLoader first_loader{static_cast<int>(axes), tick_ticks, board::Lines::samples};
+    splinefeed::DdaLoader loader_ = first_loader;
     MotionPart part_;
     Inputs inputs_;
     std::uint32_t submitted_ = 0; // the tick of the last segment

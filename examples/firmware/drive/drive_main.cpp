@@ -30,8 +30,8 @@ void on_tick() {
     Inputs inputs = begin_tick();
     limit.store(inputs.limit, std::memory_order_relaxed);
     inputs.limit = false; // the drive stops its axes itself
+    board::run_ticks([&inputs](auto&& write) { steps->tick(inputs, write); });
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     line->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 

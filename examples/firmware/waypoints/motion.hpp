@@ -14,8 +14,6 @@
 
 namespace firmware {
 
-using Steps = StepGenerator<axes>;
-
 /// What the host is told when it happens.
 enum class Event : std::uint8_t {
     none,

@@ -20,8 +20,8 @@ splinefeed::Slot<Motion> motion;
 
 void on_tick() {
     const Inputs inputs = begin_tick();
+    board::run_ticks([&inputs](auto&& write) { steps->tick(inputs, write); });
     // Not the functions themselves: those would be called by their addresses.
-    steps->tick(inputs, [](Pins lines) { board::write_lines(lines); });
     serial->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 
@@ -30,7 +30,7 @@ void on_tick() {
 int main() {
     using namespace firmware;
     board::start();
-    Steps& generator = steps.build(parts.build(), lookahead);
+    Steps& generator = steps.build(parts.build(), lookahead, board::lines());
     Serial& line = serial.build();
     Motion& planner = motion.build(generator);
     Console console(line, planner);
