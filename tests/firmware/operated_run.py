@@ -282,7 +282,7 @@ def main():
             tests = [tells_its_numbers, travels, reset_at_rest, switched_off, limited, stops, conforms]
             tests += [] if bench.name in SMALL else [streams_points]
             tests += [travels_exactly] if bench.board.kind.exact else []
-            for test in [travels, reset_at_rest, unplugged, stops] if bench.by_usb else tests:
+            for test in [travels, unplugged] if bench.by_usb else tests:
                 print(test(bench), flush=True)
         except (BoardFailed, Failed) as problem:
             print(f"{machine}: {problem}")

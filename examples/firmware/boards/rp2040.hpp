@@ -58,6 +58,9 @@ using Lines = firmware::WordLines<3, firmware::WordSettings{
                                          .lead_ticks = 2 * ticks_an_interrupt,
                                          .late_ticks = 2 * ticks_an_interrupt}>;
 
+// A word ends where one of a step's two edges is, or that of a direction; a tick's, and a motion's first one.
+static_assert(ticks_an_interrupt * (3 * (2 * Lines::counts_in_ticks[0] + 1) + 1) + 1 <= rp2040::WordPort::most_words);
+
 inline Lines lines() {
     splinefeed::PerAxis<splinefeed::LineMasks> masks{};
     for (unsigned k = 0; k < 3; ++k) {

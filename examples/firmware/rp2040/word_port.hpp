@@ -6,6 +6,7 @@
 #include "word_lines.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 namespace rp2040 {
@@ -59,6 +60,7 @@ public:
         if (words == 0) {
             return;
         }
+        std::atomic_signal_fence(std::memory_order_release); // the words are in memory before the DMA is told of them
         reg(dma(next_, DMA_READ_ADDR)) = address_of(next_);
         reg(dma(next_, DMA_TRANS_COUNT)) = 2 * words;
         reg(dma(next_, DMA_AL1_CTRL)) = control(next_);
