@@ -40,7 +40,7 @@ man -w splinefeed-run >/dev/null
 splinefeed schema machine | cmp - /usr/share/splinefeed/schemas/machine.schema.json
 source /usr/share/bash-completion/completions/splinefeed
 python3 -W error -c 'import splinefeed; assert splinefeed.plan([[0, 0], [10, 5], [20, 0], [30, 5], [40, 0]]).time == 0.602'
-python3 \$examples/python/feed_study.py | grep '4.281 s'
+python3 \$examples/python/feed_study.py | grep '4.280 s'
 mkdir project && cd project
 cat > CMakeLists.txt <<'END'
 cmake_minimum_required(VERSION 3.22)
