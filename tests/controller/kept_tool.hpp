@@ -90,4 +90,11 @@ private:
     std::uint32_t now_ = 1000;
 };
 
+/// The value of a line like $100=320.000 in what a machine says.
+inline std::string value_of(const std::string& text, const std::string& name) {
+    const std::size_t at = text.find(name + "=");
+    return at == std::string::npos ? "none"
+                                   : text.substr(at + name.size() + 1, text.find("\r\n", at) - at - name.size() - 1);
+}
+
 } // namespace splinefeed::test
